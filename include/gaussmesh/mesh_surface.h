@@ -1,0 +1,84 @@
+// The main job: from atoms to a certified mesh of their Gaussian surface.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaussmesh/atom.h"
+#include "gaussmesh/check_mesh.h"
+#include "gaussmesh/triangle_mesh.h"
+
+namespace gaussmesh {
+
+/// What is to be meshed: { x : phi(x) = c }, phi(x) = sum_i exp(-d (|x - x_i|^2 - r_i^2)).
+struct MeshOptions {
+  double decay = 0.6;               ///< d, 1/A^2, 0.001 to 1000
+  double isovalue = 1.7;            ///< c, 1e-9 to 1e9
+  double spacing = 0.5;             ///< edge of the cells (A), 0.01 to 1000: the size of the triangles
+  int threads = 0;                  ///< 0: as many as there are processors
+  bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
+};
+
+/// A place where phi = c is (nearly) singular.
+struct CriticalPlace {
+  std::array<double, 3> point{};    ///< the critical point of phi (A)
+  double value = 0.0;               ///< phi there: c differs from it by too little
+};
+
+/// Boxes of one size that the proof looked at.
+struct BoxCount {
+  double size = 0.0;                ///< edge (A)
+  std::size_t boxes = 0;
+};
+
+/// What one stage cost.
+struct StageCost {
+  std::string name;
+  double time_s = 0.0;              ///< wall clock
+  double peak_memory_MB = 0.0;      ///< of the whole process, up to the end of the stage
+};
+
+/// How the mesh came about, and what was proven of it.
+struct MeshReport {
+  std::size_t atoms = 0;
+  MeshOptions options;
+  double isovalue_used = 0.0;       ///< differs from the option only when uncertified
+  std::vector<BoxCount> boxes;      ///< largest first
+  double smallest_box = 0.0;        ///< A
+  std::size_t cells = 0;            ///< of the asked-for spacing, near the surface
+  std::size_t cells_cut_by_folds = 0;
+  std::size_t cells_split = 0;      ///< cells of any size that were cut in eight
+  bool certified = false;           ///< the mesh has exactly the topology of the surface, proven by bounds
+  std::vector<CriticalPlace> critical;   ///< where a proof would need boxes below the depth limit
+  double vertex_distance_max = 0.0; ///< A, largest distance of a vertex from phi = c
+  MeshCheck check;                  ///< what the judge found of the triangles
+  std::vector<StageCost> stages;
+};
+
+struct MeshResult {
+  TriangleMesh mesh;                               ///< coordinates are whole numbers of 1e-9 A
+  std::vector<std::array<float, 3>> normals;       ///< of the field at the vertices, into the solvent
+  MeshReport report;
+};
+
+/// Meshes the Gaussian surface of `atoms`.
+///
+/// The mesh is closed, embedded and oriented (counter-clockwise seen from the solvent), every vertex is on the surface
+/// to within 1e-6 A, and it has the components, cavities and handles of the exact surface. Same bits for any number of
+/// threads and any order of the atoms. Time and memory grow with the area of the surface over the square of the spacing,
+/// and with the number of atoms.
+///
+/// @throws OptionError      if an option is out of its range
+/// @throws CannotMeshError  if phi < c everywhere, or if c is so near a critical value that the topology is not certain
+MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options);
+
+/// The report as JSON; lengths in A and units spelt in the keys.
+std::string report_json(const MeshReport& report);
+
+/// One line, or two: what was made and what was proved.
+std::string report_summary(const MeshReport& report);
+
+}  // namespace gaussmesh

@@ -1,0 +1,45 @@
+// The certificate of a cell: the surface in it is a graph along one axis.
+#pragma once
+
+#include "field/local_model.h"
+#include "field/near_atoms.h"
+
+namespace gaussmesh {
+
+/// Along `axis` phi passes c in one direction only, everywhere in the cell: {phi = c} is single-valued along it.
+struct CellCertificate {
+  enum class Kind : std::int8_t {
+    kExcluded,     ///< proven: no surface in the closed cell
+    kMonotone,     ///< proven: d(phi)/d(axis) has `sign` wherever phi = c in the closed cell
+    kUncertified,  ///< no axis could be proven
+  };
+  Kind kind = Kind::kUncertified;
+  int axis = 0;
+  int sign = 0;    ///< +1: phi grows along the axis
+};
+
+/// Proves axes of cells, looking closer through sub-boxes where the cell as a whole does not show it.
+class CellProver {
+ public:
+  /// @param depth  how often a cell is halved before its axis counts as unproven
+  CellProver(double decay, int depth) : decay_(decay), depth_(depth) {}
+
+  /// `model` is over the whole cell; `atoms` were collected for the cell.
+  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model);
+
+  /// Whether d(phi)/d(axis) has `sign` wherever phi = c in `box`: proven through sub-boxes, or not.
+  bool prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth);
+
+  /// Sub-boxes that proofs have looked at so far, by how often the cell was halved for them.
+  const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }
+
+ private:
+  double decay_;
+  int depth_;
+  std::vector<std::size_t> boxes_by_depth_ = std::vector<std::size_t>(16, 0);
+};
+
+/// One of the eight parts of a box; bit k of `child` chooses the upper half along axis k.
+Box child_box(const Box& box, int child);
+
+}  // namespace gaussmesh

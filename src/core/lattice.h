@@ -1,0 +1,77 @@
+// Where things are: fixed-point coordinates, boxes, and the lattice that cells, faces and edges live on.
+//
+// Every vertex coordinate is a whole number of units of 1e-9 A, and so is every lattice plane. A vertex on a plane
+// is on it exactly, in memory and in the nine decimals that are written: the nearest double of n / 10^9 is both
+// what to_angstrom() gives and what a reader makes of the decimals.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace gaussmesh {
+
+using Coord = std::int64_t;                  ///< a coordinate in units of 1e-9 A
+using CoordPoint = std::array<Coord, 3>;
+using Vec3 = std::array<double, 3>;
+
+inline constexpr double kUnitsPerAngstrom = 1e9;
+
+/// The correctly rounded double of a coordinate (A). Exact to within half an ulp below 9e6 A.
+inline double to_angstrom(Coord c) { return static_cast<double>(c) / kUnitsPerAngstrom; }
+inline Vec3 to_angstrom(const CoordPoint& p) { return {to_angstrom(p[0]), to_angstrom(p[1]), to_angstrom(p[2])}; }
+
+/// A closed axis-parallel box; an edge or a face is a box that is flat along one or two axes.
+struct Box {
+  Vec3 lo{};
+  Vec3 hi{};
+};
+
+/// How often a cell of the asked-for spacing may be halved.
+inline constexpr int kMaxLevel = 12;
+inline constexpr std::int64_t kFinePerCell = std::int64_t{1} << kMaxLevel;
+
+/// Position on the finest lattice: cells of level 0 begin at multiples of kFinePerCell.
+using FineIndex = std::array<std::int64_t, 3>;
+
+/// The planes that everything is cut along: plane n of an axis is at offset + n * step.
+struct Lattice {
+  Coord step = 0;       ///< distance of the finest planes
+  CoordPoint offset{};  ///< generic, so that symmetric molecules give no exact zeros
+
+  Coord plane(int axis, std::int64_t n) const { return offset[axis] + n * step; }
+  CoordPoint point(const FineIndex& n) const { return {plane(0, n[0]), plane(1, n[1]), plane(2, n[2])}; }
+  double cell_size() const { return to_angstrom(step * kFinePerCell); }
+};
+
+/// Fine planes across a cell of the given level.
+inline constexpr std::int64_t fine_size(int level) { return kFinePerCell >> level; }
+
+/// The box from lattice point `lo` to lattice point `hi`.
+inline Box lattice_box(const Lattice& lattice, const FineIndex& lo, const FineIndex& hi) {
+  return {to_angstrom(lattice.point(lo)), to_angstrom(lattice.point(hi))};
+}
+
+/// One cell: a cube of the lattice at one level of subdivision.
+struct CellKey {
+  FineIndex lo{};
+  int level = 0;
+  bool operator==(const CellKey&) const = default;
+};
+
+inline FineIndex cell_hi(const CellKey& cell) {
+  const std::int64_t size = fine_size(cell.level);
+  return {cell.lo[0] + size, cell.lo[1] + size, cell.lo[2] + size};
+}
+
+inline Box cell_box(const Lattice& lattice, const CellKey& cell) {
+  return lattice_box(lattice, cell.lo, cell_hi(cell));
+}
+
+/// Number of the child that has the upper half along the axes whose bits are set in `child`.
+inline CellKey child_cell(const CellKey& cell, int child) {
+  CellKey result{cell.lo, cell.level + 1};
+  for (int a = 0; a < 3; ++a) result.lo[a] += (child >> a & 1) * fine_size(result.level);
+  return result;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,21 @@
+// The one failure that another lattice mends.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "core/lattice.h"
+
+namespace gaussmesh {
+
+/// The surface meets the lattice in a way that double precision cannot tell apart (through a lattice point, or tangent
+/// to a lattice line, to some 1e-13). Another offset of the lattice mends it; the pipeline tries one.
+struct LatticeDegenerate : std::runtime_error {
+  explicit LatticeDegenerate(const Vec3& at_place)
+      : std::runtime_error("the surface is degenerate with respect to the lattice at (" + std::to_string(at_place[0]) +
+                           ", " + std::to_string(at_place[1]) + ", " + std::to_string(at_place[2]) + ")"),
+        place(at_place) {}
+  Vec3 place;
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,32 @@
+// Loops over independent slots, on several threads.
+#pragma once
+
+#include <omp.h>
+
+#include <cstddef>
+#include <exception>
+
+namespace gaussmesh {
+
+/// Calls work(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
+/// When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.
+template <typename Work>
+void parallel_for(std::size_t count, int threads, const Work& work) {
+  std::exception_ptr error;
+  std::size_t error_at = count;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      work(i);
+    } catch (...) {
+#pragma omp critical(gaussmesh_parallel_for)
+      if (i < error_at) {
+        error_at = i;
+        error = std::current_exception();
+      }
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace gaussmesh

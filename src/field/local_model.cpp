@@ -1,0 +1,267 @@
+#include "field/local_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/simd.h"
+#include "core/vector_exp.h"
+#include "field/point_value.h"
+
+namespace gaussmesh {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct FirstMoments {
+  double total = 0.0, ux = 0.0, uy = 0.0, uz = 0.0;
+};
+
+GAUSSMESH_SIMD_CLONES
+FirstMoments first_moments(const double* x, const double* y, const double* z, const double* w, double* weight,
+                           std::size_t n, double d, const double* m, double shift) {
+  const double mx = m[0], my = m[1], mz = m[2];
+  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : total, sx, sy, sz)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ux = mx - x[i], uy = my - y[i], uz = mz - z[i];
+    const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz) - shift);
+    weight[i] = a;
+    total += a;
+    sx += a * ux;
+    sy += a * uy;
+    sz += a * uz;
+  }
+  return {total, sx, sy, sz};
+}
+
+struct CentralMoments {
+  double second[6]{};
+  double third[10]{};
+  double fourth = 0.0;
+  double growth = 0.0;
+};
+
+/// Moments of y_i = -2 d (centre - x_i), centre = m - v.
+GAUSSMESH_SIMD_CLONES
+CentralMoments central_moments(const double* x, const double* y, const double* z, const double* weight, std::size_t n,
+                               double d, const double* centre, double rho) {
+  const double cx = centre[0], cy = centre[1], cz = centre[2], f = 2.0 * d;
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  double xxx = 0, yyy = 0, zzz = 0, xxy = 0, xxz = 0, yyx = 0, yyz = 0, zzx = 0, zzy = 0, xyz = 0;
+  double fourth = 0, growth = 0;
+#pragma omp simd reduction(+ : xx, yy, zz, xy, xz, yz, xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz, fourth, growth)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double px = f * (x[i] - cx), py = f * (y[i] - cy), pz = f * (z[i] - cz);
+    const double a = weight[i];
+    const double ax = a * px, ay = a * py, az = a * pz;
+    const double axx = ax * px, ayy = ay * py, azz = az * pz, axy = ax * py;
+    xx += axx;
+    yy += ayy;
+    zz += azz;
+    xy += axy;
+    xz += ax * pz;
+    yz += ay * pz;
+    xxx += axx * px;
+    yyy += ayy * py;
+    zzz += azz * pz;
+    xxy += axx * py;
+    xxz += axx * pz;
+    yyx += ayy * px;
+    yyz += ayy * pz;
+    zzx += azz * px;
+    zzy += azz * py;
+    xyz += axy * pz;
+    const double q = px * px + py * py + pz * pz;
+    const double e = a * vector_exp(__builtin_sqrt(q) * rho);
+    fourth += e * q * q;
+    growth += e;
+  }
+  return {{xx, yy, zz, xy, xz, yz}, {xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz}, fourth, growth};
+}
+
+/// Index of the third moment jkl in the order of LocalModel::third_.
+constexpr int kThird[3][3][3] = {{{0, 3, 4}, {3, 5, 9}, {4, 9, 7}},
+                                 {{3, 5, 9}, {5, 1, 6}, {9, 6, 8}},
+                                 {{4, 9, 7}, {9, 6, 8}, {7, 8, 2}}};
+constexpr int kSecond[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+
+}  // namespace
+
+LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
+    : decay_(decay), box_(box), tail_(atoms.tail), tail_slope_(atoms.tail_slope) {
+  const std::size_t n = atoms.size();
+  double rho_sq = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle_[k] = 0.5 * (box.lo[k] + box.hi[k]);
+    half_[k] = 0.5 * (box.hi[k] - box.lo[k]) * (1.0 + 1e-12) + 4e-16 * std::abs(middle_[k]);
+    rho_sq += half_[k] * half_[k];
+  }
+  if (n == 0) return;  // the atoms' bounds stay infinite: no slope is known
+  const double rho = std::sqrt(rho_sq) * (1.0 + 1e-12);
+
+  double largest = -kInfinity, w_size = 1.0;
+  atoms_lo_ = {kInfinity, kInfinity, kInfinity};
+  atoms_hi_ = {-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ux = middle_[0] - atoms.x[i], uy = middle_[1] - atoms.y[i], uz = middle_[2] - atoms.z[i];
+    largest = std::max(largest, atoms.w[i] - decay * (ux * ux + uy * uy + uz * uz));
+    w_size = std::max(w_size, std::abs(atoms.w[i]));
+    atoms_lo_ = {std::min(atoms_lo_[0], atoms.x[i]), std::min(atoms_lo_[1], atoms.y[i]),
+                 std::min(atoms_lo_[2], atoms.z[i])};
+    atoms_hi_ = {std::max(atoms_hi_[0], atoms.x[i]), std::max(atoms_hi_[1], atoms.y[i]),
+                 std::max(atoms_hi_[2], atoms.z[i])};
+  }
+  const double shift = std::abs(largest) < 300.0 ? 0.0 : largest;
+
+  thread_local std::vector<double> weight;
+  weight.resize(std::max(weight.size(), n));
+  const FirstMoments first = first_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(),
+                                           weight.data(), n, decay, middle_.data(), shift);
+  const double inverse = 1.0 / first.total;
+  psi_ = shift + std::log(first.total);
+  mean_offset_ = {first.ux * inverse, first.uy * inverse, first.uz * inverse};
+  const Vec3 centre = {middle_[0] - mean_offset_[0], middle_[1] - mean_offset_[1], middle_[2] - mean_offset_[2]};
+  const CentralMoments moments = central_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), weight.data(), n,
+                                                 decay, centre.data(), rho);
+  for (int i = 0; i < 6; ++i) second_[i] = moments.second[i] * inverse;
+  for (int i = 0; i < 10; ++i) third_[i] = moments.third[i] * inverse;
+  relative_error_ = 2.0 * weight_error(2.0 * w_size + std::abs(largest) + kTruncation, n) + 1e-14;
+  fourth_ = moments.fourth * inverse * (1.0 + 1e-6);
+  growth_ = std::max(1.0, moments.growth * inverse) * (1.0 + 1e-6);
+  // Beyond this the exponential was clamped, or the remainder says nothing anyway.
+  double widest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    widest = std::max(widest, std::max(std::abs(atoms_hi_[k] - centre[k]), std::abs(atoms_lo_[k] - centre[k])));
+  }
+  usable_ = 2.0 * decay * widest * 1.74 * rho < 600.0 && relative_error_ < 1e-3;
+}
+
+LocalModel::View LocalModel::over(const Box& part) const { return View(*this, part); }
+LocalModel::View LocalModel::over_all() const { return View(*this, box_); }
+
+LocalModel::View::View(const LocalModel& model, const Box& part) : model_(model) {
+  double far_sq = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double middle = 0.5 * (part.lo[k] + part.hi[k]);
+    t_[k] = middle - model.middle_[k];
+    s_[k] = 0.5 * (part.hi[k] - part.lo[k]) * (1.0 + 1e-12) + 4e-16 * std::abs(middle);
+    const double far = std::abs(t_[k]) + s_[k];
+    far_sq += far * far;
+  }
+  radius_ = std::sqrt(far_sq) * (1.0 + 1e-12);
+
+  for (int j = 0; j < 3; ++j) {
+    double row = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      double third_t = 0.0;
+      for (int l = 0; l < 3; ++l) third_t += model.third_[kThird[j][k][l]] * t_[l];
+      const double second = model.second_[kSecond[j][k]];
+      g2_[j][k] = second + third_t;
+      row += (second + 0.5 * third_t) * t_[k];
+      g_ += (0.5 * second + third_t / 6.0) * t_[j] * t_[k];
+    }
+    g1_[j] = row;
+  }
+  for (int j = 0; j < 3; ++j) {
+    sum1_ += std::abs(g1_[j]) * s_[j];
+    for (int k = 0; k < 3; ++k) {
+      sum2_ += std::abs(g2_[j][k]) * s_[j] * s_[k];
+      for (int l = 0; l < 3; ++l) sum3_ += std::abs(model.third_[kThird[j][k][l]]) * s_[j] * s_[k] * s_[l];
+    }
+  }
+  const double r = radius_, e = model.relative_error_, y2 = model.second_[0] + model.second_[1] + model.second_[2];
+  const double y1 = std::sqrt(y2), y3 = std::sqrt(y2 * model.fourth_);  // E|y| and E|y|^3 (Cauchy-Schwarz)
+  remainder_ = r * r * r * r / 24.0 * model.fourth_ + 16.0 * e * (y1 * r + y2 * r * r + y3 * r * r * r);
+  remainder_slope_ = r * r * r / 6.0 * model.fourth_ + 16.0 * e * (y1 + y2 * r + y3 * r * r);
+  middle_value_ = model.psi_ + (g_ > 0.0 ? std::log(g_) : 0.0);
+  for (int k = 0; k < 3; ++k) middle_value_ -= model.decay_ * t_[k] * (2.0 * model.mean_offset_[k] + t_[k]);
+}
+
+Vec3 LocalModel::View::middle_gradient() const {
+  Vec3 gradient;
+  for (int k = 0; k < 3; ++k) gradient[k] = g1_[k] / g_ - 2.0 * model_.decay_ * (model_.mean_offset_[k] + t_[k]);
+  return gradient;
+}
+
+double LocalModel::View::middle_curvature(int axis) const {
+  const double slope = g1_[axis] / g_;
+  return g2_[axis][axis] / g_ - slope * slope - 2.0 * model_.decay_;
+}
+
+Range LocalModel::View::value() const {
+  const double d = model_.decay_;
+  if (!model_.usable_) return {-kInfinity, kInfinity};
+  // Jensen: g >= 1; and g <= growth_. The rest is a quadratic polynomial, bounded axis by axis.
+  double plain_lo = model_.psi_, plain_hi = model_.psi_ + std::log(model_.growth_);
+  double size = std::abs(model_.psi_) + 1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double v = model_.mean_offset_[k], a = t_[k] - s_[k], b = t_[k] + s_[k];
+    const double at_a = -d * a * (2.0 * v + a), at_b = -d * b * (2.0 * v + b);
+    plain_lo += std::min(at_a, at_b);
+    plain_hi += (a < -v && -v < b) ? d * v * v : std::max(at_a, at_b);
+    size += std::abs(at_a) + std::abs(at_b);
+  }
+  double lo = plain_lo, hi = plain_hi;
+  if (g_ > 0.5) {
+    double linear = 0.0, quadratic_lo = 0.0, quadratic_hi = 0.0;
+    for (int j = 0; j < 3; ++j) {
+      linear += std::abs(g1_[j] / g_ - 2.0 * d * (model_.mean_offset_[j] + t_[j])) * s_[j];
+      const double diagonal = (0.5 * g2_[j][j] / g_ - d) * s_[j] * s_[j];
+      (diagonal < 0.0 ? quadratic_lo : quadratic_hi) += diagonal;
+      for (int k = j + 1; k < 3; ++k) {
+        const double mixed = std::abs(g2_[j][k]) / g_ * s_[j] * s_[k];
+        quadratic_lo -= mixed;
+        quadratic_hi += mixed;
+      }
+    }
+    const double rest = (sum3_ / 6.0 + remainder_) / g_;
+    const double change = (sum1_ + 0.5 * sum2_) / g_ + rest;  // |g / g(t) - 1| in the part
+    hi = std::min(hi, middle_value_ + linear + quadratic_hi + rest);
+    if (change < 0.7) {
+      // log(1 + x) >= x - x^2 / (2 (1 - |x|))
+      lo = std::max(lo, middle_value_ - linear + quadratic_lo - rest - 0.5 * change * change / (1.0 - change));
+    }
+  }
+  const double rounding = model_.relative_error_ + 1e-15 * size;
+  hi += rounding;
+  // Atoms left out add up to tail_ to phi / c, which raises its logarithm by no more than tail_ where phi > c.
+  if (model_.tail_ > 0.0) hi = hi > 0.0 ? hi + model_.tail_ : std::log(std::exp(hi) + model_.tail_) + 1e-15;
+  return {lo - rounding, hi};
+}
+
+Range LocalModel::View::slope(int axis) const {
+  const double d = model_.decay_;
+  if (model_.tail_ > 0.01) return {-kInfinity, kInfinity};
+  // Atoms left out: |phi_k / c| changes by tail_slope_, and phi of the others is at least c (1 - tail_) where phi = c.
+  const double omitted = 1.02 * model_.tail_slope_;
+  // All atoms on one side: dpsi/dx = -2 d E[x - x_i].
+  const double lo = model_.middle_[axis] + t_[axis] - s_[axis], hi = model_.middle_[axis] + t_[axis] + s_[axis];
+  const Range one_sided{-2.0 * d * (hi - model_.atoms_lo_[axis]) - omitted,
+                        -2.0 * d * (lo - model_.atoms_hi_[axis]) + omitted};
+  if (!model_.usable_) return one_sided;
+  const double v = model_.mean_offset_[axis], c = v + t_[axis];
+  // Q = dg/dx - 2 d (v + x) g has the sign of dpsi/dx; its Taylor coefficients at t_.
+  const double q0 = g1_[axis] - 2.0 * d * c * g_;
+  double linear = 0.0, quadratic = 0.0;
+  for (int l = 0; l < 3; ++l) {
+    const double same_l = l == axis ? 1.0 : 0.0;
+    linear += std::abs(g2_[axis][l] - 2.0 * d * (same_l * g_ + c * g1_[l])) * s_[l];
+    for (int m = 0; m < 3; ++m) {
+      const double same_m = m == axis ? 1.0 : 0.0;
+      quadratic += std::abs(model_.third_[kThird[axis][l][m]] -
+                            2.0 * d * (same_l * g1_[m] + same_m * g1_[l] + c * g2_[l][m])) *
+                   s_[l] * s_[m];
+    }
+  }
+  const double cubic = d * s_[axis] * sum2_ + d / 3.0 * (std::abs(c) + s_[axis]) * sum3_;
+  const double rest = remainder_slope_ + 2.0 * d * (std::abs(c) + s_[axis]) * remainder_;
+  const double rounding = 16.0 * model_.relative_error_ * 2.0 * d * (std::abs(c) + s_[axis]);
+  const double spread = linear + 0.5 * quadratic + cubic + rest + rounding;
+  Range range{q0 - spread - omitted * model_.growth_, q0 + spread + omitted * model_.growth_};
+  range.lo = std::max(range.lo, one_sided.lo);
+  range.hi = std::min(range.hi, one_sided.hi);
+  return range;
+}
+
+}  // namespace gaussmesh

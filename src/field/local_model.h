@@ -1,0 +1,87 @@
+// Bounds of the field over a box and its parts: the proof's one source of truth.
+#pragma once
+
+#include "field/near_atoms.h"
+
+namespace gaussmesh {
+
+/// An interval that contains the exact value.
+struct Range {
+  double lo = 0.0;
+  double hi = 0.0;
+};
+
+/// The field around the middle m of a box, with a proven remainder.
+///
+/// With a_i the weight of atom i at m, u_i = m - x_i, v = E[u] the mean under the weights and y_i = -2 d (u_i - v),
+///
+///     psi(m + t) = log(phi / c) = psi(m) + log g(t) - 2 d v.t - d |t|^2,       g(t) = E[exp(y.t)].
+///
+/// g has g(0) = 1, no linear term (E[y] = 0) and g >= 1 (Jensen), so it is well described by its moments of second and
+/// third order; what is left out is at most |t|^4 / 24 E[|y|^4 exp(|y| rho)], rho the radius of the box, and a
+/// derivative of it at most |t|^3 / 6 times the same. Exponents are relative to the mean, so that a radius of 1000 A
+/// makes no larger numbers than one of 1 A. Rounding and truncation are in the ranges.
+class LocalModel {
+ public:
+  LocalModel() = default;
+
+  /// `atoms` were collected for `box` or for a box around it. Cost: two exponentials per atom.
+  LocalModel(const NearAtoms& atoms, double decay, const Box& box);
+
+  /// What part of the box is asked about.
+  class View;
+  View over(const Box& part) const;
+  View over_all() const;
+
+  const Box& box() const { return box_; }
+
+ private:
+  friend class View;
+
+  double decay_ = 0.0;
+  Box box_;
+  Vec3 middle_{};
+  Vec3 half_{};
+  bool usable_ = false;        ///< false: only the crude bounds say anything
+  double psi_ = 0.0;           ///< log(phi / c) at the middle
+  Vec3 mean_offset_{};         ///< v (A)
+  double second_[6]{};         ///< E[y y]: xx yy zz xy xz yz (1/A^2)
+  double third_[10]{};         ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
+  double fourth_ = 0.0;        ///< E[|y|^4 exp(|y| rho)] (1/A^4)
+  double growth_ = 1.0;        ///< E[exp(|y| rho)] >= g anywhere in the box
+  double relative_error_ = 0.0;
+  double tail_ = 0.0;
+  double tail_slope_ = 0.0;
+  Vec3 atoms_lo_{}, atoms_hi_{};
+};
+
+/// The model over one part of its box, which may be flat: a face, an edge, a point.
+class LocalModel::View {
+ public:
+  View(const LocalModel& model, const Box& part);
+
+  /// Range of log(phi / c) over the part.
+  Range value() const;
+
+  /// Range that has the sign of d(phi)/dx_axis wherever in the part phi = c: a positive `lo` or negative `hi` proves it.
+  Range slope(int axis) const;
+
+  /// log(phi / c) at the middle of the part, from the model, and its gradient; no bounds.
+  double middle_value() const { return middle_value_; }
+  Vec3 middle_gradient() const;
+  double middle_curvature(int axis) const;  ///< second derivative along an axis
+
+ private:
+  const LocalModel& model_;
+  Vec3 t_{};            ///< middle of the part relative to the model's (A)
+  Vec3 s_{};            ///< its half widths (A)
+  double radius_ = 0.0; ///< largest |t| in the part
+  double g_ = 1.0;      ///< g and its derivatives at t_
+  Vec3 g1_{};
+  double g2_[3][3]{};
+  double sum1_ = 0.0, sum2_ = 0.0, sum3_ = 0.0;  ///< sums |derivative| s^order over all index tuples
+  double remainder_ = 0.0, remainder_slope_ = 0.0;
+  double middle_value_ = 0.0;
+};
+
+}  // namespace gaussmesh

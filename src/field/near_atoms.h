@@ -1,0 +1,45 @@
+// The atoms that count in a box, and a bound for all the others.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace gaussmesh {
+
+/// Atoms near a box, as arrays for SIMD, in an order that depends on the atoms alone.
+///
+/// Their field relative to the isovalue is phi(x) / c = sum_i exp(w_i - d |x - x_i|^2), w_i = d r_i^2 - ln c. The
+/// atoms left out add at most `tail` to phi / c anywhere in the box, and at most `tail_slope` (1/A) to any component
+/// of its gradient.
+class NearAtoms {
+ public:
+  std::vector<double> x, y, z;  ///< centres (A)
+  std::vector<double> w;        ///< log-weights
+  double tail = 0.0;
+  double tail_slope = 0.0;      ///< 1/A
+
+  std::size_t size() const { return w.size(); }
+  void clear();
+  void add(double ax, double ay, double az, double aw);
+
+  /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and at least `distance_sq` away.
+  void add_to_tail(double count, double w_max, double distance_sq, double decay);
+
+  /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with
+  /// w - d dist^2 >= -cut. Cost: one pass over the parent's atoms.
+  void restrict_from(const NearAtoms& parent, const Box& box, double decay, double cut);
+};
+
+/// Log-weight, relative to c, below which an atom is left out: e^-23 = 1e-10.
+inline constexpr double kTruncation = 23.0;
+
+/// Bounds of phi / c over a box from the atoms' distances alone: good for boxes larger than an atom.
+struct CrudeBounds {
+  double upper = 0.0;      ///< phi / c is at most this
+  bool inside = false;     ///< one atom alone has phi_i > c everywhere in the box
+};
+CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay);
+
+}  // namespace gaussmesh

@@ -1,0 +1,87 @@
+#include "field/point_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/simd.h"
+#include "core/vector_exp.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Sums of exp(e_i - e_max), and of that times the offset of the point from the atom.
+struct WeightSums {
+  double total = 0.0;
+  double ux = 0.0, uy = 0.0, uz = 0.0;
+};
+
+GAUSSMESH_SIMD_CLONES
+double largest_exponent(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+                        double px, double py, double pz) {
+  double largest = -1e300;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
+    const double e = w[i] - d * (ux * ux + uy * uy + uz * uz);
+    largest = e > largest ? e : largest;
+  }
+  return largest;
+}
+
+GAUSSMESH_SIMD_CLONES
+WeightSums weight_sums(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+                       double px, double py, double pz, double shift) {
+  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : total, sx, sy, sz)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
+    const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz) - shift);
+    total += a;
+    sx += a * ux;
+    sy += a * uy;
+    sz += a * uz;
+  }
+  return {total, sx, sy, sz};
+}
+
+}  // namespace
+
+double weight_error(double exponent_size, std::size_t n) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  return 4.0 * kEpsilon * exponent_size + kVectorExpError + kEpsilon * static_cast<double>(n + 4);
+}
+
+PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
+  const std::size_t n = atoms.size();
+  PointValue result;
+  if (n == 0) {
+    result.value = -700.0;
+    return result;
+  }
+  const double largest = largest_exponent(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay,
+                                          p[0], p[1], p[2]);
+  // Near the surface no exponent is above zero, and none needs a shift; elsewhere it keeps the sum in range.
+  const double shift = std::abs(largest) < 300.0 ? 0.0 : largest;
+  const WeightSums s = weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay, p[0],
+                                   p[1], p[2], shift);
+  result.value = shift + std::log(s.total);
+  const double factor = -2.0 * decay / s.total;
+  result.gradient = {factor * s.ux, factor * s.uy, factor * s.uz};
+
+  // The atoms that weigh anything have exponents near `largest`: w_i and d |u_i|^2 differ by about that. The largest
+  // log-weight bounds both.
+  double w_size = 1.0;
+  for (std::size_t i = 0; i < n; ++i) w_size = std::max(w_size, std::abs(atoms.w[i]));
+  const double exponent_size = 2.0 * w_size + std::abs(largest) + kTruncation;
+  const double log_error = 4e-16 * (std::abs(result.value) + 1.0);
+  result.error = 1.001 * weight_error(exponent_size, n) + log_error;
+  return result;
+}
+
+Side side_of(const PointValue& value, const NearAtoms& atoms) {
+  if (value.value > value.error) return Side::kInside;
+  return std::exp(value.value + value.error) + atoms.tail < 1.0 ? Side::kOutside : Side::kUnknown;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,313 @@
+#include "patch/patch_triangulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/lattice_degenerate.h"
+#include "patch/triangle_shape.h"
+
+namespace gaussmesh {
+namespace {
+
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+/// Twice the area of a polygon, for its sign and rough size only.
+double doubled_area(const auto& polygon) {
+  double area = 0.0;
+  const PlanePoint o = polygon[0].at;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const PlanePoint p = polygon[i].at, q = polygon[i + 1].at;
+    area += static_cast<double>(p.a - o.a) * static_cast<double>(q.b - o.b) -
+            static_cast<double>(p.b - o.b) * static_cast<double>(q.a - o.a);
+  }
+  return area;
+}
+
+/// Whether p is strictly inside the polygon. Exact; boundary points are not inside.
+bool strictly_inside(const auto& polygon, const PlanePoint& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const PlanePoint &q = polygon[i].at, &r = polygon[(i + 1) % polygon.size()].at;
+    const int side = turn(q, r, p);
+    if (side == 0 && within(q, r, p)) return false;
+    if ((q.b > p.b) != (r.b > p.b) && (side > 0) == (r.b > q.b)) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::uint8_t faces_of(const CoordPoint& point, const CoordPoint& lo, const CoordPoint& hi) {
+  unsigned faces = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (point[k] == lo[k]) faces |= 1u << (2 * k);
+    if (point[k] == hi[k]) faces |= 2u << (2 * k);
+  }
+  return static_cast<std::uint8_t>(faces);
+}
+
+PlanePoint PatchTriangulator::project(const CoordPoint& p) const {
+  const Coord a = p[first_axis(axis_)], b = p[second_axis(axis_)];
+  // Seen from the solvent, so that loops turn counter-clockwise.
+  return sign_ < 0 ? PlanePoint{a, b} : PlanePoint{b, a};
+}
+
+const Patch& PatchTriangulator::triangulate(const CoordPoint& lo, const CoordPoint& hi, int axis, int sign,
+                                            std::span<const Loop> loops) {
+  lo_ = lo;
+  hi_ = hi;
+  axis_ = axis;
+  sign_ = sign;
+  atoms_loaded_ = false;
+  patch_.triangles.clear();
+  patch_.points.clear();
+  patch_.complete = make_polygons(loops) && join_holes();
+  for (std::size_t i = 0; patch_.complete && i < polygons_.size(); ++i) {
+    patch_.complete = triangulate_polygon(polygons_[i]);
+  }
+  return patch_;
+}
+
+bool PatchTriangulator::make_polygons(std::span<const Loop> loops) {
+  vertices_.clear();
+  polygons_.clear();
+  holes_.clear();
+  on_outline_ = true;
+  const unsigned sides = 0x3Fu & ~(3u << (2 * axis_));
+  for (const Loop& loop : loops) {
+    if (loop.size() < 3) return false;
+    Polygon polygon;
+    for (const LoopVertex& v : loop) {
+      on_outline_ = on_outline_ && (v.faces & sides) != 0;
+      polygon.push_back({project(v.point.position), static_cast<int>(vertices_.size())});
+      vertices_.push_back(v);
+    }
+    const bool positive = doubled_area(polygon) > 0.0;
+    (positive ? polygons_ : holes_).push_back(std::move(polygon));
+  }
+  return on_outline_ ? holes_.empty() : boundaries_are_disjoint();
+}
+
+bool PatchTriangulator::boundaries_are_disjoint() const {
+  struct Segment {
+    PlanePoint p, q;
+    int from, to;
+  };
+  std::vector<Segment> sides;
+  for (const auto* list : {&polygons_, &holes_}) {
+    for (const Polygon& polygon : *list) {
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Corner &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        sides.push_back({p.at, q.at, p.vertex, q.vertex});
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i].p == sides[i].q) return false;
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      const Segment &s = sides[i], &t = sides[j];
+      const bool meet = s.to == t.from   ? segments_overlap(s.q, s.p, t.q)
+                        : t.to == s.from ? segments_overlap(t.q, t.p, s.q)
+                                         : segments_meet(s.p, s.q, t.p, t.q);
+      if (meet) return false;
+    }
+  }
+  return true;
+}
+
+bool PatchTriangulator::join_holes() {
+  for (const Polygon& hole : holes_) {
+    // The smallest polygon round the hole is the one that it is a hole of.
+    Polygon* round = nullptr;
+    for (Polygon& polygon : polygons_) {
+      if (!strictly_inside(polygon, hole[0].at)) continue;
+      if (!round || doubled_area(polygon) < doubled_area(*round)) round = &polygon;
+    }
+    if (!round || !bridge(*round, hole)) return false;
+  }
+  return true;
+}
+
+bool PatchTriangulator::bridge(Polygon& outer, const Polygon& hole) {
+  double best = kImpossible;
+  std::size_t best_i = 0, best_j = 0;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    for (std::size_t j = 0; j < hole.size(); ++j) {
+      if (vertices_[outer[i].vertex].faces & vertices_[hole[j].vertex].faces) continue;
+      const double da = static_cast<double>(outer[i].at.a - hole[j].at.a);
+      const double db = static_cast<double>(outer[i].at.b - hole[j].at.b);
+      const double length = da * da + db * db;
+      if (length >= best || !segment_is_clear(outer, outer[i], hole[j])) continue;
+      const bool clear = std::all_of(holes_.begin(), holes_.end(), [&](const Polygon& other) {
+        return segment_is_clear(other, outer[i], hole[j]);
+      });
+      if (!clear) continue;
+      best = length;
+      best_i = i;
+      best_j = j;
+    }
+  }
+  if (best == kImpossible) return false;
+  Polygon joined(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(best_i) + 1);
+  for (std::size_t k = 0; k <= hole.size(); ++k) joined.push_back(hole[(best_j + k) % hole.size()]);
+  joined.insert(joined.end(), outer.begin() + static_cast<std::ptrdiff_t>(best_i), outer.end());
+  outer = std::move(joined);
+  return true;
+}
+
+bool PatchTriangulator::segment_is_clear(const Polygon& polygon, const Corner& p, const Corner& q) const {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner &r = polygon[i], &s = polygon[(i + 1) % polygon.size()];
+    const bool shares_p = r.vertex == p.vertex || s.vertex == p.vertex;
+    const bool shares_q = r.vertex == q.vertex || s.vertex == q.vertex;
+    if (shares_p && shares_q) return false;
+    if (shares_p || shares_q) {
+      const Corner &common = shares_p ? p : q, &far = shares_p ? q : p;
+      const Corner& other = r.vertex == common.vertex ? s : r;
+      if (segments_overlap(common.at, far.at, other.at)) return false;
+    } else if (segments_meet(p.at, q.at, r.at, s.at)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool PatchTriangulator::diagonal_is_free(const Polygon& polygon, int i, int j) const {
+  const Corner &p = polygon[i], &q = polygon[j];
+  if (vertices_[p.vertex].faces & vertices_[q.vertex].faces) return false;
+  if (on_outline_) return true;
+  if (p.vertex == q.vertex) return false;
+  const int n = static_cast<int>(polygon.size());
+  const auto inside_angle = [&](int at, const Corner& to) {
+    const PlanePoint &here = polygon[at].at, &before = polygon[(at + n - 1) % n].at, &after = polygon[(at + 1) % n].at;
+    const bool left_of_after = turn(here, after, to.at) > 0, right_of_before = turn(here, before, to.at) < 0;
+    const bool convex = turn(before, here, after) > 0;
+    return convex ? left_of_after && right_of_before : left_of_after || right_of_before;
+  };
+  return inside_angle(i, q) && inside_angle(j, p) && segment_is_clear(polygon, p, q);
+}
+
+double PatchTriangulator::triangle_cost(const Corner& p, const Corner& q, const Corner& r) const {
+  if (turn(p.at, q.at, r.at) <= 0) return kImpossible;
+  const LoopVertex &u = vertices_[p.vertex], &v = vertices_[q.vertex], &w = vertices_[r.vertex];
+  if (u.faces & v.faces & w.faces) return kImpossible;
+  return shape_cost(u.point, v.point, w.point);
+}
+
+double PatchTriangulator::best_triangulation(const Polygon& polygon) {
+  const int n = static_cast<int>(polygon.size());
+  cost_.assign(static_cast<std::size_t>(n) * n, kImpossible);
+  choice_.assign(static_cast<std::size_t>(n) * n, -1);
+  for (int i = 0; i + 1 < n; ++i) cost_[i * n + i + 1] = 0.0;
+  for (int width = 2; width < n; ++width) {
+    for (int i = 0; i + width < n; ++i) {
+      const int j = i + width;
+      if (!(i == 0 && j == n - 1) && !diagonal_is_free(polygon, i, j)) continue;
+      for (int k = i + 1; k < j; ++k) {
+        const double parts = cost_[i * n + k] + cost_[k * n + j];
+        if (parts >= cost_[i * n + j]) continue;
+        const double total = parts + triangle_cost(polygon[i], polygon[k], polygon[j]);
+        if (total < cost_[i * n + j]) {
+          cost_[i * n + j] = total;
+          choice_[i * n + j] = k;
+        }
+      }
+    }
+  }
+  return cost_[n - 1];
+}
+
+bool PatchTriangulator::triangulate_polygon(const Polygon& polygon) {
+  const double cost = best_triangulation(polygon);
+  const auto n = static_cast<double>(polygon.size());
+  if (cost < kPoorTriangle + n) {
+    take_triangles(polygon, 0, static_cast<int>(polygon.size()) - 1);
+    return true;
+  }
+  // None, or one with a triangle turned far from the surface: a point inside the cell gives more freedom.
+  Polygon richer = polygon;
+  if (add_inner_corner(richer)) {
+    if (best_triangulation(richer) < cost) {
+      take_triangles(richer, 0, static_cast<int>(richer.size()) - 1);
+      return true;
+    }
+    drop_last_point();
+  }
+  if (cost == kImpossible) return false;
+  best_triangulation(polygon);
+  take_triangles(polygon, 0, static_cast<int>(polygon.size()) - 1);
+  return true;
+}
+
+void PatchTriangulator::take_triangles(const Polygon& polygon, int i, int j) {
+  if (j - i < 2) return;
+  const int k = choice_[i * static_cast<int>(polygon.size()) + j];
+  take_triangles(polygon, i, k);
+  patch_.triangles.push_back({vertices_[polygon[i].vertex].vertex, vertices_[polygon[k].vertex].vertex,
+                              vertices_[polygon[j].vertex].vertex});
+  take_triangles(polygon, k, j);
+}
+
+bool PatchTriangulator::add_inner_corner(Polygon& polygon) {
+  // Candidates: the middle of all corners, and the middles between corners that are not neighbours.
+  std::vector<PlanePoint> candidates;
+  PlanePoint sum;
+  const auto n = static_cast<Coord>(polygon.size());
+  const PlanePoint origin = polygon[0].at;
+  for (const Corner& c : polygon) sum = {sum.a + (c.at.a - origin.a), sum.b + (c.at.b - origin.b)};
+  candidates.push_back({origin.a + sum.a / n, origin.b + sum.b / n});
+  for (Coord i = 0; i < n; ++i) {
+    for (Coord j = i + 2; j < n && candidates.size() < 40; ++j) {
+      const PlanePoint &p = polygon[i].at, &q = polygon[j].at;
+      candidates.push_back({p.a + (q.a - p.a) / 2, p.b + (q.b - p.b) / 2});
+    }
+  }
+  for (const PlanePoint& at : candidates) {
+    if (!strictly_inside(polygon, at)) continue;
+    const int vertex = lift(at);
+    if (vertex < 0) continue;
+    on_outline_ = false;
+    const Corner inner{at, vertex};
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      if (!segment_is_clear(polygon, polygon[i], inner)) continue;
+      // A slit from corner i to the inner corner and back.
+      const Corner end = polygon[i];
+      polygon.insert(polygon.begin() + static_cast<std::ptrdiff_t>(i) + 1, {inner, end});
+      return true;
+    }
+    drop_last_point();
+  }
+  return false;
+}
+
+void PatchTriangulator::drop_last_point() {
+  vertices_.pop_back();
+  patch_.points.pop_back();
+}
+
+int PatchTriangulator::lift(const PlanePoint& at) {
+  CoordPoint p = lo_;
+  p[first_axis(axis_)] = sign_ < 0 ? at.a : at.b;
+  p[second_axis(axis_)] = sign_ < 0 ? at.b : at.a;
+  const Vec3 start = to_angstrom(p);
+  Vec3 end = start;
+  end[axis_] = to_angstrom(hi_[axis_]);
+  if (!atoms_loaded_) field_.collect_near({to_angstrom(lo_), to_angstrom(hi_)}, atoms_);
+  atoms_loaded_ = true;
+  const double decay = field_.decay();
+  const LocalModel model(atoms_, decay, {start, end});
+  const bool inside_lo = is_inside(field_, atoms_, model, start);
+  if (inside_lo == is_inside(field_, atoms_, model, end)) return -1;
+  const LineRoot root = refine_root(atoms_, decay, start, axis_, start[axis_], end[axis_], inside_lo,
+                                    0.5 * (start[axis_] + end[axis_]), 0.0);
+  p[axis_] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis_] + 1, hi_[axis_] - 1);
+  LoopVertex v;
+  v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());
+  v.point = {p, outward_normal(root.gradient)};
+  patch_.points.push_back(v.point);
+  vertices_.push_back(v);
+  return static_cast<int>(vertices_.size()) - 1;
+}
+
+}  // namespace gaussmesh

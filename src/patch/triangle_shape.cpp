@@ -1,0 +1,32 @@
+#include "patch/triangle_shape.h"
+
+#include <cmath>
+
+namespace gaussmesh {
+namespace {
+
+Vec3 difference(const CoordPoint& p, const CoordPoint& q) {
+  return {static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]), static_cast<double>(p[2] - q[2])};
+}
+
+double dot(const Vec3& u, const Vec3& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+
+}  // namespace
+
+double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  const Vec3 u = difference(q.position, p.position), v = difference(r.position, p.position);
+  const Vec3 w = difference(r.position, q.position);
+  const Vec3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double doubled_area = std::sqrt(dot(n, n));
+  const double edges_sq = dot(u, u) + dot(v, v) + dot(w, w);
+  if (doubled_area == 0.0) return 100.0 * kPoorTriangle;
+  Vec3 field{};
+  for (int k = 0; k < 3; ++k) field[k] = double(p.normal[k]) + double(q.normal[k]) + double(r.normal[k]);
+  const double cosine = dot(n, field) / (doubled_area * std::sqrt(dot(field, field)) + 1e-300);
+  const double quality = 2.0 * std::sqrt(3.0) * doubled_area / edges_sq;
+  // Within 60 degrees of the field's normal shape decides; beyond, the normal.
+  const double turned = cosine < 0.5 ? kPoorTriangle * (1.0 + 4.0 * (0.5 - cosine)) : 2.0 * (1.0 - cosine);
+  return 1.0 - quality + turned;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,15 @@
+// How good a triangle is as a piece of the surface.
+#pragma once
+
+#include "roots/edge_roots.h"
+
+namespace gaussmesh {
+
+/// From here on a triangle's cost says that it is turned far from the surface: see shape_cost().
+inline constexpr double kPoorTriangle = 10.0;
+
+/// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
+/// squared edges, and much more for a triangle whose normal is far from the field's at its corners.
+double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
+
+}  // namespace gaussmesh

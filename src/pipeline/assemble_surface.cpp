@@ -1,0 +1,270 @@
+#include "pipeline/assemble_surface.h"
+
+#include <algorithm>
+
+#include "core/lattice_degenerate.h"
+#include "core/parallel.h"
+#include "gaussmesh/error.h"
+#include "patch/patch_triangulator.h"
+
+namespace gaussmesh {
+namespace {
+
+FineIndex moved(FineIndex n, int axis, std::int64_t by) {
+  n[axis] += by;
+  return n;
+}
+
+/// Follows the curves on the faces that one brick owns.
+class BrickTracer {
+ public:
+  BrickTracer(const GaussianField& field, const Lattice& lattice, const CellStore& store)
+      : lattice_(lattice), store_(store), tracer_(field, lattice) {}
+
+  struct Result {
+    std::vector<Link> links;
+    std::vector<SurfacePoint> points;
+    std::vector<std::array<std::uint8_t, 3>> counts;
+  };
+
+  Result trace(std::uint32_t brick_number) {
+    Result result;
+    const Brick& brick = store_.bricks()[brick_number];
+    result.counts.resize(brick.cells.size());
+    for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t before = result.links.size();
+        trace_face({brick_number, i}, axis, result);
+        const std::size_t count = result.links.size() - before;
+        if (count > 255) throw InternalError("more than 255 curve pieces on a face: choose a smaller spacing");
+        result.counts[i][axis] = static_cast<std::uint8_t>(count);
+      }
+    }
+    return result;
+  }
+
+ private:
+  void trace_face(const CellStore::Place& place, int axis, Result& result) {
+    const SurfaceCell& cell = store_.cell(place);
+    if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
+    collect_roots(place, axis);
+    if (cell.face[axis] != kFaceUncertified) {
+      if (roots_.empty()) return;
+      if (roots_.size() == 2 && roots_[0].boundary_side != roots_[1].boundary_side) {
+        const bool first_starts = roots_[0].boundary_side < 2 ? roots_[0].rise < 0 : roots_[0].rise > 0;
+        const auto [from, to] = first_starts ? std::pair(0, 1) : std::pair(1, 0);
+        result.links.push_back({roots_[from].vertex, roots_[to].vertex});
+        return;
+      }
+    }
+    const CoordPoint lo = lattice_.point(store_.lowest_corner(place));
+    CoordPoint hi = lo;
+    hi[first_axis(axis)] += lattice_.step * kFinePerCell;
+    hi[second_axis(axis)] += lattice_.step * kFinePerCell;
+    const FaceCurves& curves = tracer_.trace(axis, lo, hi, cell.face[axis], roots_);
+    const auto base = static_cast<std::uint32_t>(result.points.size());
+    const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
+    for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
+    result.points.insert(result.points.end(), curves.points.begin(), curves.points.end());
+  }
+
+  void collect_roots(const CellStore::Place& place, int axis) {
+    roots_.clear();
+    const int a = first_axis(axis), b = second_axis(axis);
+    add_roots(place, a, 0);
+    const FineIndex lo = store_.lowest_corner(place);
+    if (const auto next = store_.find(moved(lo, a, kFinePerCell), place.brick)) add_roots(*next, b, 1);
+    if (const auto next = store_.find(moved(lo, b, kFinePerCell), place.brick)) add_roots(*next, a, 2);
+    add_roots(place, b, 3);
+  }
+
+  void add_roots(const CellStore::Place& place, int axis, int side) {
+    const auto roots = store_.edge_roots(place, axis);
+    if (roots.empty()) return;
+    std::uint32_t vertex = store_.first_vertex(place, axis);
+    for (const EdgeRoot& root : roots) roots_.push_back({vertex++, root.point.position, side, root.side});
+  }
+
+  const Lattice& lattice_;
+  const CellStore& store_;
+  FaceTracer tracer_;
+  std::vector<FaceRoot> roots_;
+};
+
+/// Gathers the loops of cells and triangulates them. Keeps buffers: one for each thread.
+class CellPatcher {
+ public:
+  CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
+              const std::vector<SurfacePoint>& points)
+      : lattice_(lattice), store_(store), split_(split), points_(points), triangulator_(field) {}
+
+  struct Result {
+    std::vector<Triangle> triangles;
+    std::vector<SurfacePoint> points;
+    std::vector<CellKey> failed;
+  };
+
+  void patch_cell(const CellStore::Place& place, Result& result) {
+    const SurfaceCell& cell = store_.cell(place);
+    if (cell.split) return;
+    patch({store_.lowest_corner(place), 0}, cell.axis, cell.sign, place.brick, result);
+  }
+
+  void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.axis, leaf.sign, 0, result); }
+
+ private:
+  void patch(const CellKey& key, int axis, int sign, std::uint32_t hint, Result& result) {
+    links_.clear();
+    const std::int64_t size = fine_size(key.level);
+    for (int k = 0; k < 3; ++k) {
+      collect_links(k, key.lo, key.level, hint, false);
+      collect_links(k, moved(key.lo, k, size), key.level, hint, true);
+    }
+    if (links_.empty()) return;
+    const CoordPoint lo = lattice_.point(key.lo), hi = lattice_.point(cell_hi(key));
+    build_loops(lo, hi);
+    const Patch& patch = triangulator_.triangulate(lo, hi, axis, sign, loops_);
+    if (!patch.complete) {
+      result.failed.push_back(key);
+      return;
+    }
+    const auto base = static_cast<std::uint32_t>(result.points.size());
+    for (Triangle t : patch.triangles) {
+      for (std::uint32_t& v : t) v = v >= kLocalVertex ? v + base : v;
+      result.triangles.push_back(t);
+    }
+    result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
+  }
+
+  /// Links of the face at `lo`; the surface of a cell has it on its left below a face, on its right above one.
+  void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
+    std::span<const Link> links;
+    if (level == 0) {
+      const auto place = store_.find(lo, hint);
+      if (!place) return;
+      if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
+      links = store_.face_links(*place, axis);
+    } else {
+      if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
+      links = split_.face_links(axis, lo, level);
+    }
+    for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);
+  }
+
+  void collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
+    const std::int64_t half = fine_size(level + 1);
+    for (int part = 0; part < 4; ++part) {
+      const FineIndex corner = moved(moved(lo, first_axis(axis), (part & 1) * half), second_axis(axis),
+                                     (part >> 1) * half);
+      collect_links(axis, corner, level + 1, hint, high_side);
+    }
+  }
+
+  void build_loops(const CoordPoint& lo, const CoordPoint& hi) {
+    loops_.clear();
+    used_.assign(links_.size(), false);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (used_[i]) continue;
+      Loop& loop = loops_.emplace_back();
+      std::size_t at = i;
+      while (!used_[at]) {
+        used_[at] = true;
+        const SurfacePoint& point = points_[links_[at].from];
+        loop.push_back({links_[at].from, point, faces_of(point.position, lo, hi)});
+        const auto next = std::find_if(links_.begin(), links_.end(),
+                                       [&](const Link& link) { return link.from == links_[at].to; });
+        if (next == links_.end()) throw LatticeDegenerate(to_angstrom(point.position));
+        at = static_cast<std::size_t>(next - links_.begin());
+      }
+      if (at != i) throw LatticeDegenerate(to_angstrom(points_[links_[at].from].position));
+    }
+  }
+
+  const Lattice& lattice_;
+  const CellStore& store_;
+  const SplitLattice& split_;
+  const std::vector<SurfacePoint>& points_;
+  PatchTriangulator triangulator_;
+  std::vector<Link> links_;
+  std::vector<bool> used_;
+  std::vector<Loop> loops_;
+};
+
+std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split) {
+  std::vector<SurfacePoint> points;
+  for (const Brick& brick : store.bricks()) {
+    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
+  }
+  points.insert(points.end(), split.points().begin(), split.points().end());
+  for (const Brick& brick : store.bricks()) {
+    points.insert(points.end(), brick.face_points.begin(), brick.face_points.end());
+  }
+  return points;
+}
+
+/// Leaves that make one unit of parallel work.
+constexpr std::size_t kLeavesPerTask = 64;
+
+}  // namespace
+
+void trace_level_zero_faces(const GaussianField& field, const Lattice& lattice, CellStore& store,
+                            std::uint32_t first_vertex, int threads) {
+  std::vector<Brick>& bricks = store.bricks();
+  std::vector<BrickTracer::Result> results(bricks.size());
+  parallel_for(bricks.size(), threads, [&](std::size_t i) {
+    results[i] = BrickTracer(field, lattice, store).trace(static_cast<std::uint32_t>(i));
+  });
+  std::uint32_t next_vertex = first_vertex;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    Brick& brick = bricks[i];
+    brick.links = std::move(results[i].links);
+    brick.face_points = std::move(results[i].points);
+    for (Link& link : brick.links) {
+      for (std::uint32_t* v : {&link.from, &link.to}) *v = *v >= kLocalVertex ? next_vertex + (*v - kLocalVertex) : *v;
+    }
+    next_vertex += static_cast<std::uint32_t>(brick.face_points.size());
+    std::uint32_t first_link = 0;
+    for (std::size_t c = 0; c < brick.cells.size(); ++c) {
+      brick.cells[c].link_count = results[i].counts[c];
+      brick.cells[c].first_link = first_link;
+      for (std::uint8_t count : results[i].counts[c]) first_link += count;
+    }
+  }
+}
+
+PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
+                               const SplitLattice& split, int threads) {
+  PatchOutcome outcome;
+  std::vector<SurfacePoint>& points = outcome.surface.points;
+  points = collect_points(store, split);
+
+  const std::size_t bricks = store.bricks().size();
+  const std::size_t leaf_tasks = (split.leaves().size() + kLeavesPerTask - 1) / kLeavesPerTask;
+  std::vector<CellPatcher::Result> results(bricks + leaf_tasks);
+  parallel_for(results.size(), threads, [&](std::size_t task) {
+    CellPatcher patcher(field, lattice, store, split, points);
+    if (task < bricks) {
+      const auto cells = static_cast<std::uint32_t>(store.bricks()[task].cells.size());
+      for (std::uint32_t i = 0; i < cells; ++i) {
+        patcher.patch_cell({static_cast<std::uint32_t>(task), i}, results[task]);
+      }
+    } else {
+      const std::size_t first = (task - bricks) * kLeavesPerTask;
+      const std::size_t last = std::min(first + kLeavesPerTask, split.leaves().size());
+      for (std::size_t i = first; i < last; ++i) patcher.patch_leaf(split.leaves()[i], results[task]);
+    }
+  });
+  for (CellPatcher::Result& result : results) {
+    const auto base = static_cast<std::uint32_t>(points.size());
+    for (Triangle t : result.triangles) {
+      for (std::uint32_t& v : t) v = v >= kLocalVertex ? base + (v - kLocalVertex) : v;
+      outcome.surface.triangles.push_back(t);
+    }
+    points.insert(points.end(), result.points.begin(), result.points.end());
+    outcome.failed.insert(outcome.failed.end(), result.failed.begin(), result.failed.end());
+    result = {};
+  }
+  return outcome;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,139 @@
+#include "pipeline/cell_store.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/parallel.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Fills one brick. Keeps the buffers of its stages: one for each thread.
+class BrickBuilder {
+ public:
+  BrickBuilder(const GaussianField& field, const Lattice& lattice)
+      : lattice_(lattice), walker_(field, lattice), roots_(field, lattice) {}
+
+  Brick build(const BrickIndex& index) {
+    Brick brick;
+    brick.index = index;
+    walker_.walk(index, [&](const BrickWalker::Cell& cell) { add_cell(brick, cell); });
+    std::sort(brick.cells.begin(), brick.cells.end(),
+              [](const SurfaceCell& a, const SurfaceCell& b) { return a.local < b.local; });
+    for (const SurfaceCell& cell : brick.cells) brick.occupied[cell.local / 64] |= 1ull << (cell.local % 64);
+    brick.cells.shrink_to_fit();
+    brick.roots.shrink_to_fit();
+    return brick;
+  }
+
+  std::vector<std::size_t> boxes_by_level() const { return walker_.boxes_by_level(); }
+
+ private:
+  void add_cell(Brick& brick, const BrickWalker::Cell& found) {
+    SurfaceCell cell;
+    const FineIndex origin = brick_origin(brick.index);
+    std::int64_t local[3];
+    for (int k = 0; k < 3; ++k) local[k] = (found.lo[k] - origin[k]) / kFinePerCell;
+    cell.local = static_cast<std::uint16_t>(local[0] + kBrickCells * (local[1] + kBrickCells * local[2]));
+    if (found.certificate.kind == CellCertificate::Kind::kMonotone) {
+      cell.axis = static_cast<std::int8_t>(found.certificate.axis);
+      cell.sign = static_cast<std::int8_t>(found.certificate.sign);
+    }
+    cell.first_root = static_cast<std::uint32_t>(brick.roots.size());
+    const CoordPoint lo = lattice_.point(found.lo);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto roots = roots_.find(found.atoms, found.model, axis, lo,
+                                     lattice_.plane(axis, found.lo[axis] + kFinePerCell));
+      if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
+      cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());
+      brick.roots.insert(brick.roots.end(), roots.begin(), roots.end());
+      FineIndex hi = found.lo;
+      hi[first_axis(axis)] += kFinePerCell;
+      hi[second_axis(axis)] += kFinePerCell;
+      cell.face[axis] = certify_face(found.model, axis, lattice_box(lattice_, found.lo, hi));
+    }
+    brick.cells.push_back(cell);
+  }
+
+  const Lattice& lattice_;
+  BrickWalker walker_;
+  EdgeRootFinder roots_;
+};
+
+}  // namespace
+
+std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
+  std::uint64_t h = 0;
+  for (std::int64_t v : b) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
+  return h ^ (h >> 32);
+}
+
+CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
+  const std::vector<BrickIndex> found = find_bricks(field, lattice);
+  std::vector<Brick> all(found.size());
+  parallel_for(found.size(), threads, [&](std::size_t i) {
+    BrickBuilder builder(field, lattice);
+    all[i] = builder.build(found[i]);
+    all[i].boxes_by_level = builder.boxes_by_level();
+  });
+  for (Brick& brick : all) {
+    if (brick.cells.empty()) continue;
+    by_index_.emplace(brick.index, static_cast<std::uint32_t>(bricks_.size()));
+    brick.first_vertex = root_vertices_;
+    root_vertices_ += static_cast<std::uint32_t>(brick.roots.size());
+    bricks_.push_back(std::move(brick));
+  }
+}
+
+std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32_t hint) const {
+  constexpr std::int64_t kBrickFine = kBrickCells * kFinePerCell;
+  BrickIndex index;
+  unsigned local = 0;
+  for (int k = 2; k >= 0; --k) {
+    index[k] = lo[k] >= 0 ? lo[k] / kBrickFine : -((-lo[k] + kBrickFine - 1) / kBrickFine);
+    local = local * kBrickCells + static_cast<unsigned>((lo[k] - index[k] * kBrickFine) / kFinePerCell);
+  }
+  std::uint32_t number = hint;
+  if (bricks_.empty()) return std::nullopt;
+  if (bricks_[hint].index != index) {
+    const auto it = by_index_.find(index);
+    if (it == by_index_.end()) return std::nullopt;
+    number = it->second;
+  }
+  const Brick& brick = bricks_[number];
+  const std::uint64_t bit = 1ull << (local % 64);
+  if (!(brick.occupied[local / 64] & bit)) return std::nullopt;
+  unsigned rank = static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)));
+  for (unsigned w = 0; w < local / 64; ++w) rank += static_cast<unsigned>(std::popcount(brick.occupied[w]));
+  return Place{number, rank};
+}
+
+FineIndex CellStore::lowest_corner(const Place& place) const {
+  FineIndex lo = brick_origin(bricks_[place.brick].index);
+  int local = cell(place).local;
+  for (int k = 0; k < 3; ++k, local /= kBrickCells) lo[k] += (local % kBrickCells) * kFinePerCell;
+  return lo;
+}
+
+std::span<const EdgeRoot> CellStore::edge_roots(const Place& place, int axis) const {
+  const SurfaceCell& c = cell(place);
+  std::size_t first = c.first_root;
+  for (int k = 0; k < axis; ++k) first += c.root_count[k];
+  return {bricks_[place.brick].roots.data() + first, c.root_count[axis]};
+}
+
+std::uint32_t CellStore::first_vertex(const Place& place, int axis) const {
+  const auto roots = edge_roots(place, axis);
+  return bricks_[place.brick].first_vertex +
+         static_cast<std::uint32_t>(roots.data() - bricks_[place.brick].roots.data());
+}
+
+std::span<const Link> CellStore::face_links(const Place& place, int axis) const {
+  const SurfaceCell& c = cell(place);
+  std::size_t first = c.first_link;
+  for (int k = 0; k < axis; ++k) first += c.link_count[k];
+  return {bricks_[place.brick].links.data() + first, c.link_count[axis]};
+}
+
+}  // namespace gaussmesh

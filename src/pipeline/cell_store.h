@@ -1,0 +1,84 @@
+// The cells of the asked-for spacing that the surface crosses, with their roots and curves, by brick.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "boxes/brick_cells.h"
+#include "trace/face_tracer.h"
+
+namespace gaussmesh {
+
+/// A cell of level 0. It owns the three edges and the three faces at its lowest corner.
+struct SurfaceCell {
+  std::uint16_t local = 0;          ///< i + 8 (j + 8 k) within the brick
+  std::int8_t axis = 0;             ///< of the certificate
+  std::int8_t sign = 0;             ///< of the certificate; 0: uncertified
+  bool split = false;               ///< its surface is that of smaller cells
+  std::uint8_t divided_faces = 0;   ///< bit k: the face across axis k is that of smaller cells
+  std::array<FaceCertificate, 3> face{};
+  std::array<std::uint8_t, 3> root_count{};
+  std::array<std::uint8_t, 3> link_count{};
+  std::uint32_t first_root = 0;     ///< roots on the edges along x, y, z, one after the other
+  std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
+};
+
+/// A cube of kBrickCells^3 cells.
+struct Brick {
+  BrickIndex index{};
+  std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
+  std::vector<SurfaceCell> cells;            ///< by `local`
+  std::vector<EdgeRoot> roots;
+  std::vector<Link> links;
+  std::vector<SurfacePoint> face_points;     ///< vertices inside faces
+  std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
+  std::vector<std::size_t> boxes_by_level;
+};
+
+/// A root as the faces round its edge see it.
+struct VertexRoot {
+  std::uint32_t vertex = 0;
+  CoordPoint position{};
+  int rise = 0;
+};
+
+/// All cells of level 0.
+class CellStore {
+ public:
+  /// Finds the cells, their certificates, the certificates of their faces and the roots on their edges.
+  CellStore(const GaussianField& field, const Lattice& lattice, int threads);
+
+  std::vector<Brick>& bricks() { return bricks_; }
+  const std::vector<Brick>& bricks() const { return bricks_; }
+
+  struct Place {
+    std::uint32_t brick = 0;
+    std::uint32_t cell = 0;
+  };
+  /// The cell with lowest corner `lo`, if the surface may cross it. `hint`: a brick to look in first.
+  std::optional<Place> find(const FineIndex& lo, std::uint32_t hint = 0) const;
+
+  SurfaceCell& cell(const Place& place) { return bricks_[place.brick].cells[place.cell]; }
+  const SurfaceCell& cell(const Place& place) const { return bricks_[place.brick].cells[place.cell]; }
+  FineIndex lowest_corner(const Place& place) const;
+
+  /// Roots on the edge of level 0 that begins at `lo`.
+  std::span<const EdgeRoot> edge_roots(const Place& place, int axis) const;
+  std::uint32_t first_vertex(const Place& place, int axis) const;
+  std::span<const Link> face_links(const Place& place, int axis) const;
+
+  std::uint32_t root_vertices() const { return root_vertices_; }
+
+ private:
+  struct IndexHash {
+    std::size_t operator()(const BrickIndex& b) const;
+  };
+  std::vector<Brick> bricks_;
+  std::unordered_map<BrickIndex, std::uint32_t, IndexHash> by_index_;
+  std::uint32_t root_vertices_ = 0;
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,185 @@
+#include "gaussmesh/mesh_surface.h"
+
+#include <omp.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/lattice_degenerate.h"
+#include "core/number_text.h"
+#include "field/gaussian_field.h"
+#include "gaussmesh/error.h"
+#include "gaussmesh/read_atoms.h"
+#include "pipeline/critical_point.h"
+#include "pipeline/trace_surface.h"
+
+namespace gaussmesh {
+namespace {
+
+/// How far vertices may be from phi = c (A): the promise of mesh_surface().
+constexpr double kVertexTolerance = 1e-6;
+
+/// Measures the stages one after the other.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<StageCost>& stages) : stages_(stages) {}
+
+  void finished(const std::string& name) {
+    const auto now = Clock::now();
+    const double time_s = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const double memory_MB = static_cast<double>(usage.ru_maxrss) / 1024.0;
+    for (StageCost& stage : stages_) {
+      if (stage.name != name) continue;
+      stage.time_s += time_s;
+      stage.peak_memory_MB = memory_MB;
+      return;
+    }
+    stages_.push_back({name, time_s, memory_MB});
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<StageCost>& stages_;
+  Clock::time_point last_ = Clock::now();
+};
+
+void check_range(const char* name, double value, double lo, double hi, const char* unit) {
+  if (value >= lo && value <= hi) return;
+  throw OptionError(std::string(name) + ": expected a number from " + number_text(lo) + " to " + number_text(hi) +
+                    unit + ", got '" + number_text(value) + "'");
+}
+
+void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
+  check_range("decay", options.decay, 1e-3, 1e3, " (1/A^2)");
+  check_range("isovalue", options.isovalue, 1e-9, 1e9, "");
+  check_range("spacing", options.spacing, 0.01, 1000.0, " (A)");
+  check_range("threads", options.threads, 0, 4096, "");
+  if (atoms.empty()) throw InputError("no atoms: expected at least one");
+  for (const Atom& a : atoms) {
+    const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+    if (!(largest <= kLargestCoordinate) || !(a.radius >= 0.0 && a.radius <= kLargestRadius)) {
+      throw InputError("an atom: expected coordinates within 1e6 A and a radius from 0 to 1e5 A, got (" +
+                       number_text(a.x) + ", " + number_text(a.y) + ", " + number_text(a.z) + "), " +
+                       number_text(a.radius));
+    }
+  }
+}
+
+TriangleMesh to_mesh(const TracedSurface& surface) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(surface.points.size());
+  for (const SurfacePoint& p : surface.points) mesh.vertices.push_back(to_angstrom(p.position));
+  mesh.triangles = surface.triangles;
+  return mesh;
+}
+
+void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
+  for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
+    report.boxes.push_back({cell_size * std::ldexp(1.0, 2 - static_cast<int>(i)), trace.boxes_by_level[i]});
+  }
+  report.smallest_box = trace.smallest_box;
+  report.cells = trace.cells;
+  report.cells_split = trace.cells_split;
+  report.cells_cut_by_folds = trace.cells_cut_by_folds;
+}
+
+/// Critical points at the places where the proof gave up; several places have one point in common.
+std::vector<CriticalPlace> critical_places(const GaussianField& field, const TraceResult& trace, double isovalue) {
+  constexpr double kSamePoint = 1e-3;  // A
+  std::vector<CriticalPlace> places;
+  for (const UncertifiedPlace& place : trace.uncertified) {
+    const CriticalPoint critical = find_critical_point(field, place.place);
+    const bool known = std::any_of(places.begin(), places.end(), [&](const CriticalPlace& other) {
+      double distance = 0.0;
+      for (int k = 0; k < 3; ++k) distance = std::max(distance, std::abs(other.point[k] - critical.point[k]));
+      return distance < kSamePoint;
+    });
+    if (!known) places.push_back({critical.point, critical.relative_value * isovalue});
+  }
+  return places;
+}
+
+std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue) {
+  const CriticalPlace& first = places.front();
+  std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at (" +
+                        number_text(first.point[0], 9) + ", " + number_text(first.point[1], 9) + ", " +
+                        number_text(first.point[2], 9) + ") the surface is singular at c = " +
+                        number_text(first.value, 15) + ", " + number_text(std::abs(isovalue - first.value), 3) +
+                        " away";
+  if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
+  return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
+}
+
+/// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
+TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
+                         double& isovalue_used) {
+  for (double change = 1e-9; change < 1e-2; change *= 4.0) {
+    for (const double sign : {-1.0, 1.0}) {
+      isovalue_used = options.isovalue * (1.0 + sign * change);
+      const GaussianField field(atoms, options.decay, isovalue_used);
+      TraceResult trace = trace_surface(field, options.spacing, threads,
+                                        [&](const std::string& stage) { watch.finished(stage); });
+      if (trace.uncertified.empty()) return trace;
+    }
+  }
+  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) + " can be certified");
+}
+
+void verify(const MeshResult& result, const std::vector<Atom>& atoms, MeshReport& report) {
+  report.check = check_mesh(result.mesh);
+  if (!report.check.fit_for_solver()) {
+    throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
+  }
+  report.vertex_distance_max =
+      distance_to_surface(result.mesh, atoms, report.options.decay, report.isovalue_used).vertex_max;
+  if (!(report.vertex_distance_max <= kVertexTolerance)) {
+    throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
+                        " A away from the surface: please report this molecule");
+  }
+}
+
+}  // namespace
+
+MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
+  check_options(atoms, options);
+  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  MeshResult result;
+  MeshReport& report = result.report;
+  report.atoms = atoms.size();
+  report.options = options;
+  report.isovalue_used = options.isovalue;
+  Stopwatch watch(report.stages);
+
+  const GaussianField field(atoms, options.decay, options.isovalue);
+  watch.finished("field");
+  TraceResult trace;
+  try {
+    trace = trace_surface(field, options.spacing, threads, [&](const std::string& stage) { watch.finished(stage); });
+    report.certified = trace.uncertified.empty();
+    if (!report.certified) {
+      report.critical = critical_places(field, trace, options.isovalue);
+      if (!options.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options.isovalue));
+      trace = trace_beside(atoms, options, threads, watch, report.isovalue_used);
+    }
+  } catch (const LatticeDegenerate& degenerate) {
+    throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+  }
+  describe_trace(trace, options.spacing, report);
+  if (trace.surface.triangles.empty()) {
+    throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
+                          " everywhere; choose a smaller c");
+  }
+  result.mesh = to_mesh(trace.surface);
+  for (const SurfacePoint& p : trace.surface.points) result.normals.push_back(p.normal);
+  watch.finished("mesh");
+  verify(result, atoms, report);
+  watch.finished("verify");
+  return result;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,213 @@
+#include "pipeline/split_lattice.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/parallel.h"
+
+namespace gaussmesh {
+namespace {
+
+/// The coarsest level that has a lattice plane at fine index n.
+int level_of_plane(std::int64_t n) {
+  return n == 0 ? 0 : std::max(0, kMaxLevel - std::countr_zero(static_cast<std::uint64_t>(n)));
+}
+
+std::int64_t round_down(std::int64_t n, std::int64_t size) {
+  return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
+}
+
+FineIndex moved(FineIndex n, int axis, std::int64_t by) {
+  n[axis] += by;
+  return n;
+}
+
+}  // namespace
+
+std::size_t CellKeyHash::operator()(const CellKey& key) const {
+  std::uint64_t h = static_cast<std::uint64_t>(key.level);
+  for (std::int64_t v : key.lo) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
+  return h ^ (h >> 32);
+}
+
+SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const CellSet& forced,
+                           int threads)
+    : field_(field), lattice_(lattice), store_(store) {
+  std::vector<CellKey> roots;
+  for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
+    std::vector<SurfaceCell>& cells = store.bricks()[b].cells;
+    for (std::uint32_t i = 0; i < cells.size(); ++i) {
+      cells[i].divided_faces = 0;
+      const CellKey key{store.lowest_corner({b, i}), 0};
+      cells[i].split = cells[i].sign == 0 || forced.contains(key);
+      if (cells[i].split) roots.push_back(key);
+    }
+  }
+  std::vector<Branch> branches(roots.size());
+  parallel_for(roots.size(), threads, [&](std::size_t i) {
+    CellProver prover(field_.decay(), kProofDepth);
+    split(roots[i], forced, prover, branches[i]);
+  });
+  for (const Branch& branch : branches) {
+    leaves_.insert(leaves_.end(), branch.leaves.begin(), branch.leaves.end());
+    split_.insert(branch.split.begin(), branch.split.end());
+    uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
+  }
+  for (const CellKey& key : roots) {
+    const auto place = store_.find(key.lo);
+    store_.cell(*place).divided_faces = 7;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto next = store_.find(moved(key.lo, axis, kFinePerCell), place->brick);
+      if (next) store_.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
+    }
+  }
+  if (uncertified_.empty()) find_edge_roots(threads);
+}
+
+void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const {
+  branch.split.push_back(key);
+  NearAtoms atoms;
+  field_.collect_near(cell_box(lattice_, key), atoms);
+  for (int c = 0; c < 8; ++c) {
+    const CellKey child = child_cell(key, c);
+    const Box box = cell_box(lattice_, child);
+    const CellCertificate certificate = prover.certify(atoms, LocalModel(atoms, field_.decay(), box));
+    if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
+    const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
+    if (certified && !forced.contains(child)) {
+      branch.leaves.push_back({child, certificate.axis, certificate.sign});
+    } else if (child.level < kMaxLevel) {
+      split(child, forced, prover, branch);
+    } else {
+      Vec3 middle;
+      for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (box.lo[k] + box.hi[k]);
+      branch.uncertified.push_back({middle, box.hi[0] - box.lo[0]});
+      return;  // one place is enough
+    }
+  }
+}
+
+SplitLattice::LatticeKey SplitLattice::whole_edge(int axis, const FineIndex& lo) const {
+  const int level = std::max(level_of_plane(lo[first_axis(axis)]), level_of_plane(lo[second_axis(axis)]));
+  FineIndex start = lo;
+  start[axis] = round_down(lo[axis], fine_size(level));
+  return {start, axis, level};
+}
+
+void SplitLattice::find_edge_roots(int threads) {
+  for (const LeafCell& leaf : leaves_) {
+    const std::int64_t size = fine_size(leaf.key.level);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 4; ++corner) {
+        FineIndex lo = leaf.key.lo;
+        lo[first_axis(axis)] += (corner & 1) * size;
+        lo[second_axis(axis)] += (corner >> 1) * size;
+        const LatticeKey edge = whole_edge(axis, lo);
+        if (edge.level > 0) edges_.push_back(edge);
+      }
+    }
+  }
+  std::sort(edges_.begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+
+  std::vector<std::vector<EdgeRoot>> found(edges_.size());
+  parallel_for(edges_.size(), threads, [&](std::size_t i) {
+    const LatticeKey& edge = edges_[i];
+    const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
+    const Box box = lattice_box(lattice_, edge.lo, end);
+    NearAtoms atoms;
+    field_.collect_near(box, atoms);
+    EdgeRootFinder finder(field_, lattice_);
+    const auto roots = finder.find(atoms, LocalModel(atoms, field_.decay(), box), edge.axis, lattice_.point(edge.lo),
+                                   lattice_.plane(edge.axis, end[edge.axis]));
+    found[i].assign(roots.begin(), roots.end());
+  });
+  edge_roots_.resize(edges_.size());
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    for (const EdgeRoot& root : found[i]) {
+      const auto vertex = first_vertex() + static_cast<std::uint32_t>(points_.size());
+      edge_roots_[i].push_back({vertex, root.point.position, root.side});
+      points_.push_back(root.point);
+    }
+  }
+}
+
+std::vector<VertexRoot> SplitLattice::roots_on(int axis, const FineIndex& lo, int level) const {
+  const Coord from = lattice_.plane(axis, lo[axis]), to = lattice_.plane(axis, lo[axis] + fine_size(level));
+  std::vector<VertexRoot> result;
+  const auto keep = [&](const VertexRoot& root) {
+    if (root.position[axis] > from && root.position[axis] < to) result.push_back(root);
+  };
+  const LatticeKey edge = whole_edge(axis, lo);
+  if (edge.level == 0) {
+    if (const auto place = store_.find(edge.lo)) {
+      std::uint32_t vertex = store_.first_vertex(*place, axis);
+      for (const EdgeRoot& root : store_.edge_roots(*place, axis)) keep({vertex++, root.point.position, root.side});
+    }
+  } else {
+    const auto it = std::lower_bound(edges_.begin(), edges_.end(), edge);
+    if (it != edges_.end() && *it == edge) {
+      for (const VertexRoot& root : edge_roots_[it - edges_.begin()]) keep(root);
+    }
+  }
+  return result;
+}
+
+std::vector<FaceRoot> SplitLattice::face_roots(const LatticeKey& face) const {
+  const int a = first_axis(face.axis), b = second_axis(face.axis);
+  const std::int64_t size = fine_size(face.level);
+  std::vector<FaceRoot> result;
+  const auto add = [&](int axis, const FineIndex& lo, int side) {
+    for (const VertexRoot& root : roots_on(axis, lo, face.level)) {
+      result.push_back({root.vertex, root.position, side, root.rise});
+    }
+  };
+  add(a, face.lo, 0);
+  add(b, moved(face.lo, a, size), 1);
+  add(a, moved(face.lo, b, size), 2);
+  add(b, face.lo, 3);
+  return result;
+}
+
+bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
+  return split_.contains({lo, level}) || split_.contains({moved(lo, axis, -fine_size(level)), level});
+}
+
+void SplitLattice::trace_faces(int threads) {
+  for (const LeafCell& leaf : leaves_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
+        const FineIndex lo = moved(leaf.key.lo, axis, by);
+        if (!is_divided(axis, lo, leaf.key.level)) faces_.push_back({lo, axis, leaf.key.level});
+      }
+    }
+  }
+  std::sort(faces_.begin(), faces_.end());
+  faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+
+  std::vector<FaceCurves> curves(faces_.size());
+  parallel_for(faces_.size(), threads, [&](std::size_t i) {
+    const LatticeKey& face = faces_[i];
+    const std::int64_t size = fine_size(face.level);
+    const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
+    const std::vector<FaceRoot> roots = face_roots(face);
+    FaceTracer tracer(field_, lattice_);
+    curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots);
+  });
+  face_links_.resize(faces_.size());
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const std::uint32_t base = first_vertex() + static_cast<std::uint32_t>(points_.size());
+    const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + (v - kLocalVertex) : v; };
+    for (const Link& link : curves[i].links) face_links_[i].push_back({numbered(link.from), numbered(link.to)});
+    points_.insert(points_.end(), curves[i].points.begin(), curves[i].points.end());
+  }
+}
+
+std::span<const Link> SplitLattice::face_links(int axis, const FineIndex& lo, int level) const {
+  const LatticeKey key{lo, axis, level};
+  const auto it = std::lower_bound(faces_.begin(), faces_.end(), key);
+  if (it == faces_.end() || *it != key) return {};
+  return face_links_[it - faces_.begin()];
+}
+
+}  // namespace gaussmesh

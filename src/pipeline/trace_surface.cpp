@@ -1,0 +1,84 @@
+#include "pipeline/trace_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lattice_degenerate.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Rounds of splitting cells whose loops found no embedded triangulation; each such cell is halved in each.
+constexpr int kMaxRounds = 2 * kMaxLevel;
+
+/// Offsets of the lattice, as fractions of a cell: the first that gives no degenerate place is used.
+constexpr Vec3 kOffsets[] = {{0.37193, 0.41421, 0.23607}, {0.61803, 0.14159, 0.71828}, {0.05572, 0.87298, 0.58258}};
+
+Lattice make_lattice(double spacing, const Vec3& fractions) {
+  Lattice lattice;
+  lattice.step = std::max<Coord>(2, std::llround(spacing * kUnitsPerAngstrom / double(kFinePerCell)));
+  for (int k = 0; k < 3; ++k) lattice.offset[k] = std::llround(fractions[k] * double(lattice.step * kFinePerCell));
+  return lattice;
+}
+
+void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult& result) {
+  for (const Brick& brick : store.bricks()) {
+    result.boxes_by_level.resize(std::max(result.boxes_by_level.size(), brick.boxes_by_level.size()));
+    for (std::size_t i = 0; i < brick.boxes_by_level.size(); ++i) result.boxes_by_level[i] += brick.boxes_by_level[i];
+    result.cells += brick.cells.size();
+  }
+  result.bricks = store.bricks().size();
+  while (!result.boxes_by_level.empty() && result.boxes_by_level.back() == 0) result.boxes_by_level.pop_back();
+  const int halvings = static_cast<int>(result.boxes_by_level.size()) - 3;
+  result.smallest_box = lattice.cell_size() * std::ldexp(1.0, -std::max(0, halvings));
+}
+
+TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int threads, const StageClock& finished) {
+  TraceResult result;
+  CellStore store(field, lattice, threads);
+  add_box_counts(store, lattice, result);
+  finished("boxes and roots");
+  CellSet forced;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    SplitLattice split(field, lattice, store, forced, threads);
+    result.cells_split = split.split_cells();
+    for (const LeafCell& leaf : split.leaves()) {
+      result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
+    }
+    if (!split.uncertified().empty()) {
+      result.uncertified = split.uncertified();
+      return result;
+    }
+    split.trace_faces(threads);
+    const auto next_vertex = split.first_vertex() + static_cast<std::uint32_t>(split.points().size());
+    trace_level_zero_faces(field, lattice, store, next_vertex, threads);
+    finished("curves");
+    PatchOutcome outcome = triangulate_cells(field, lattice, store, split, threads);
+    finished("patches");
+    if (outcome.failed.empty()) {
+      result.surface = std::move(outcome.surface);
+      return result;
+    }
+    for (const CellKey& cell : outcome.failed) {
+      if (cell.level == kMaxLevel) throw LatticeDegenerate(to_angstrom(lattice.point(cell.lo)));
+      forced.insert(cell);
+    }
+  }
+  throw InternalError("cells were split again and again without an embedded triangulation");
+}
+
+}  // namespace
+
+TraceResult trace_surface(const GaussianField& field, double spacing, int threads, const StageClock& finished) {
+  for (const Vec3& offset : kOffsets) {
+    try {
+      return trace_on(field, make_lattice(spacing, offset), threads, finished);
+    } catch (const LatticeDegenerate&) {
+      if (&offset == std::end(kOffsets) - 1) throw;
+    }
+  }
+  throw InternalError("no lattice was tried");
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,29 @@
+// The certified trace: from the field to a mesh with the topology of the exact surface.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "pipeline/assemble_surface.h"
+
+namespace gaussmesh {
+
+/// What the trace made, and how.
+struct TraceResult {
+  TracedSurface surface;
+  std::vector<UncertifiedPlace> uncertified;   ///< not empty: no proof at the depth limit, and no surface
+  std::vector<std::size_t> boxes_by_level;     ///< cubes of 4, 2 and 1 cells, then parts of cells, halving
+  std::size_t bricks = 0;
+  std::size_t cells = 0;
+  std::size_t cells_split = 0;
+  std::size_t cells_cut_by_folds = 0;
+  double smallest_box = 0.0;                   ///< A
+};
+
+/// Called at the end of each stage with its name.
+using StageClock = std::function<void(const std::string&)>;
+
+/// Traces the surface of `field` with cells of the given size.
+TraceResult trace_surface(const GaussianField& field, double spacing, int threads, const StageClock& finished);
+
+}  // namespace gaussmesh

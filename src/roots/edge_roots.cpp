@@ -1,0 +1,143 @@
+#include "roots/edge_roots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lattice_degenerate.h"
+#include "field/point_value.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Two roots closer than this are not told apart (A): ten times the unit of the coordinates.
+constexpr double kClosestRoots = 1e-8;
+
+/// Log-weight below which an atom does not matter next to rounding: e^-60 = 1e-26.
+constexpr double kNoTruncation = 60.0;
+
+/// Newton stops at steps below this (A), a hundredth of the unit that coordinates are rounded to.
+constexpr double kRootTolerance = 1e-11;
+
+/// Zero nearest to `x` of the parabola f + f1 s + f2 s^2 / 2; NaN where it has none.
+double parabola_zero(double x, double f, double f1, double f2) {
+  const double discriminant = f1 * f1 - 2.0 * f * f2;
+  return x - 2.0 * f / (f1 + std::copysign(std::sqrt(discriminant), f1));
+}
+
+}  // namespace
+
+std::array<float, 3> outward_normal(const Vec3& g) {
+  const double length = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  const double f = length > 0.0 ? -1.0 / length : 0.0;
+  return {static_cast<float>(f * g[0]), static_cast<float>(f * g[1]), static_cast<float>(f * g[2])};
+}
+
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
+  const Range range = model.over({point, point}).value();
+  if (range.lo > 0.0) return true;
+  if (range.hi < 0.0) return false;
+  Side side = side_of(evaluate(atoms, field.decay(), point), atoms);
+  if (side == Side::kUnknown) {
+    NearAtoms all;
+    field.collect_near({point, point}, all, kNoTruncation);
+    side = side_of(evaluate(all, field.decay(), point), all);
+  }
+  if (side == Side::kUnknown) throw LatticeDegenerate(point);
+  return side == Side::kInside;
+}
+
+LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
+                     bool inside_a, double guess, double curvature) {
+  double x = guess > a && guess < b ? guess : 0.5 * (a + b);
+  Vec3 point = start;
+  LineRoot root;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    point[axis] = x;
+    const PointValue value = evaluate(atoms, decay, point);
+    root = {x, value.gradient};
+    ((value.value > 0.0) == inside_a ? a : b) = x;
+    double next = parabola_zero(x, value.value, value.gradient[axis], curvature);
+    if (!(next >= a && next <= b)) next = x - value.value / value.gradient[axis];
+    if (!(next >= a && next <= b)) next = 0.5 * (a + b);
+    const double step = std::abs(next - x);
+    root.position = next;
+    // The parabola leaves an error of third order in the step; its factor is about d^(3/2).
+    if (step < 1e-5 && step * step * step * (1.0 + decay * decay) < 0.1 * kRootTolerance) return root;
+    if (b - a < kRootTolerance) return root;
+    x = next;
+  }
+  throw InternalError("a bracketed root was not found in 100 steps");
+}
+
+Vec3 EdgeRootFinder::at(double x) const {
+  Vec3 p = base_;
+  p[axis_] = x;
+  return p;
+}
+
+std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const LocalModel& model, int axis,
+                                               const CoordPoint& lo, Coord hi) {
+  atoms_ = &atoms;
+  axis_ = axis;
+  lo_ = lo;
+  hi_ = hi;
+  base_ = to_angstrom(lo);
+  roots_.clear();
+  const double a = base_[axis], b = to_angstrom(hi);
+  if (const Range range = model.over({at(a), at(b)}).value(); range.hi < 0.0 || range.lo > 0.0) return roots_;
+  isolate(model, {a, b, is_inside(field_, atoms, model, at(a)), is_inside(field_, atoms, model, at(b))});
+  for (std::size_t i = 1; i < roots_.size(); ++i) {
+    if (roots_[i - 1].point.position[axis_] >= roots_[i].point.position[axis_]) {
+      throw LatticeDegenerate(to_angstrom(roots_[i].point.position));
+    }
+  }
+  return roots_;
+}
+
+void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
+  const Box part{at(s.a), at(s.b)};
+  const LocalModel::View view = model.over(part);
+  const Range value = view.value();
+  if (value.hi < 0.0 || value.lo > 0.0) return;
+  const Range slope = view.slope(axis_);
+  if (slope.lo > 0.0 || slope.hi < 0.0) {
+    if (s.inside_a != s.inside_b) refine(model, s);
+    return;
+  }
+  if (s.b - s.a < kClosestRoots) throw LatticeDegenerate(part.lo);
+  if (model.box().lo != part.lo || model.box().hi != part.hi) {
+    // A model of the edge alone is closer than one of the cell.
+    isolate(LocalModel(*atoms_, field_.decay(), part), s);
+    return;
+  }
+  const double middle = 0.5 * (s.a + s.b);
+  const bool inside_middle = is_inside(field_, *atoms_, model, at(middle));
+  isolate(model, {s.a, middle, s.inside_a, inside_middle});
+  isolate(model, {middle, s.b, inside_middle, s.inside_b});
+}
+
+void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
+  const double middle = 0.5 * (s.a + s.b);
+  const Vec3 p = at(middle);
+  const LocalModel::View view = model.over({p, p});
+  const double curvature = view.middle_curvature(axis_);
+  const double guess = parabola_zero(middle, view.middle_value(), view.middle_gradient()[axis_], curvature);
+  const LineRoot root = refine_root(*atoms_, field_.decay(), p, axis_, s.a, s.b, s.inside_a, guess, curvature);
+  EdgeRoot result;
+  result.point.position = lo_;
+  result.point.position[axis_] = snap(root.position, lo_[axis_], hi_);
+  result.point.normal = outward_normal(root.gradient);
+  result.side = s.inside_a ? -1 : 1;
+  roots_.push_back(result);
+}
+
+Coord EdgeRootFinder::snap(double x, Coord lo, Coord hi) const {
+  Coord c = std::llround(x * kUnitsPerAngstrom);
+  c = std::clamp(c, lo + 1, hi - 1);
+  // A root that rounds onto a lattice plane goes to the side of it that it came from.
+  if ((c - lattice_.offset[axis_]) % lattice_.step == 0) c += x < to_angstrom(c) ? -1 : 1;
+  return c;
+}
+
+}  // namespace gaussmesh

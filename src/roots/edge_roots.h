@@ -1,0 +1,78 @@
+// Roots of phi = c on ONE edge of the lattice, all of them.
+//
+// Which edges there are is the pipeline's business; joining roots across faces is trace/.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "field/gaussian_field.h"
+#include "field/local_model.h"
+
+namespace gaussmesh {
+
+/// A point of the surface, rounded to the units that are written, with the direction into the solvent.
+struct SurfacePoint {
+  CoordPoint position{};
+  std::array<float, 3> normal{};  ///< -grad phi / |grad phi|
+};
+
+/// A place where a lattice edge goes through the surface.
+struct EdgeRoot {
+  SurfacePoint point;
+  std::int8_t side = 0;  ///< +1: enters the molecule along the edge; -1: leaves it
+};
+
+/// Finds every root of phi = c on lattice edges.
+///
+/// Following [CL11] roots are found on lines along x, y and z; the proof of completeness is ours: the edge is cut into
+/// intervals on which bounds show that phi - c has no root, or that its derivative has one sign where it has, so that
+/// the signs at the ends tell whether there is one. No step size is involved. Keeps buffers: one for each thread.
+class EdgeRootFinder {
+ public:
+  EdgeRootFinder(const GaussianField& field, const Lattice& lattice) : field_(field), lattice_(lattice) {}
+
+  /// Roots on the edge from `lo` along `axis` to coordinate `hi`, in rising order, strictly inside the edge and on no
+  /// plane of the finest lattice. `model` is over a box that contains the edge, and `atoms` were collected for one.
+  /// @throws LatticeDegenerate where two roots, or a root and a lattice plane, cannot be told apart
+  std::span<const EdgeRoot> find(const NearAtoms& atoms, const LocalModel& model, int axis, const CoordPoint& lo,
+                                 Coord hi);
+
+ private:
+  struct Segment {
+    double a, b;
+    bool inside_a, inside_b;
+  };
+
+  void isolate(const LocalModel& model, const Segment& segment);
+  void refine(const LocalModel& model, const Segment& segment);
+  Coord snap(double x, Coord lo, Coord hi) const;
+  Vec3 at(double x) const;
+
+  const GaussianField& field_;
+  const Lattice& lattice_;
+  const NearAtoms* atoms_ = nullptr;
+  int axis_ = 0;
+  CoordPoint lo_{};
+  Coord hi_ = 0;
+  Vec3 base_{};
+  std::vector<EdgeRoot> roots_;
+};
+
+/// Whether phi >= c at a point, proven: by the model, by the sum over `atoms`, or by the sum over all atoms.
+/// @throws LatticeDegenerate where |phi / c - 1| is below the rounding error, some 1e-13
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point);
+
+/// The root of phi = c on the line through `start` along `axis` between coordinates a and b, where phi - c has
+/// opposite signs; good to 1e-10 A. @param inside_a whether phi > c at a
+struct LineRoot {
+  double position = 0.0;
+  Vec3 gradient{};
+};
+LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
+                     bool inside_a, double guess, double curvature);
+
+/// -gradient / |gradient|.
+std::array<float, 3> outward_normal(const Vec3& gradient);
+
+}  // namespace gaussmesh

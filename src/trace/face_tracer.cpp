@@ -1,0 +1,360 @@
+#include "trace/face_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lattice_degenerate.h"
+#include "field/point_value.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+/// A rectangle is not cut below this (units): ten times the distance at which roots are told apart.
+constexpr Coord kSmallestRect = 100;
+
+/// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
+constexpr int kMaxRefinements = 8;
+
+}  // namespace
+
+FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face) {
+  const LocalModel::View view = model.over(face);
+  const Range value = view.value();
+  if (value.hi < 0.0 || value.lo > 0.0) return kFaceEmpty;
+  int certificate = kFaceUncertified;
+  const Range first = view.slope(first_axis(axis)), second = view.slope(second_axis(axis));
+  if (first.lo > 0.0 || first.hi < 0.0) certificate |= kFaceAlongFirst;
+  if (second.lo > 0.0 || second.hi < 0.0) certificate |= kFaceAlongSecond;
+  return static_cast<FaceCertificate>(certificate);
+}
+
+PlanePoint FaceTracer::plane(int point) const {
+  const CoordPoint& p = points_[point].point.position;
+  return {p[first_axis(axis_)], p[second_axis(axis_)]};
+}
+
+void FaceTracer::load_atoms() {
+  if (atoms_loaded_) return;
+  field_.collect_near({to_angstrom(face_.lo), to_angstrom(face_.hi)}, atoms_);
+  atoms_loaded_ = true;
+}
+
+const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
+                                    std::span<const FaceRoot> roots) {
+  axis_ = axis;
+  face_ = {lo, hi};
+  atoms_loaded_ = false;
+  points_.clear();
+  pieces_.clear();
+  chains_.clear();
+  curves_.links.clear();
+  curves_.points.clear();
+
+  std::vector<RectRoot> rect_roots;
+  for (const FaceRoot& root : roots) {
+    rect_roots.push_back({static_cast<int>(points_.size()), root.boundary_side});
+    points_.push_back({{root.position, {}}, root.vertex, root.rise, true, -1, -1});
+  }
+  if (certificate == kFaceEmpty && roots.empty()) return curves_;
+  trace_rect(face_, certificate, std::move(rect_roots));
+  collect_chains(roots);
+  bool straight = true;
+  for (const Chain& chain : chains_) {
+    choose_points(chain);
+    straight = straight && length_of(chain) == 2;
+  }
+  // Chords between different edges of a rectangle cannot cross when the curves do not; polygons can.
+  for (int round = 0; !straight && polygons_cross(); ++round) {
+    if (round == kMaxRefinements) throw LatticeDegenerate(to_angstrom(face_.lo));
+    refine_all();
+  }
+  emit();
+  return curves_;
+}
+
+bool FaceTracer::starts_curve(const RectRoot& root) const {
+  // Walking counter-clockwise, a curve with the molecule on its left begins where the boundary leaves the molecule.
+  const int rise = points_[root.point].rise;
+  return root.side < 2 ? rise < 0 : rise > 0;
+}
+
+void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots) {
+  if (certificate == kFaceEmpty) {
+    if (!roots.empty()) throw LatticeDegenerate(to_angstrom(rect.lo));
+    return;
+  }
+  if ((certificate & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
+  if ((certificate & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
+  load_atoms();
+  const Box box{to_angstrom(rect.lo), to_angstrom(rect.hi)};
+  const FaceCertificate closer = certify_face(LocalModel(atoms_, field_.decay(), box), axis_, box);
+  if (closer == kFaceEmpty) {
+    if (!roots.empty()) throw LatticeDegenerate(box.lo);
+    return;
+  }
+  if ((closer & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
+  if ((closer & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
+  split_rect(rect, roots);
+}
+
+bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots) {
+  if (roots.size() % 2 != 0) throw LatticeDegenerate(to_angstrom(rect.lo));
+  const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
+  const auto coordinate = [&](const RectRoot& r) { return points_[r.point].point.position[over]; };
+  std::sort(roots.begin(), roots.end(), [&](const RectRoot& r, const RectRoot& s) {
+    return coordinate(r) < coordinate(s) || (coordinate(r) == coordinate(s) && r.side < s.side);
+  });
+  for (std::size_t i = 2; i < roots.size(); i += 2) {
+    if (coordinate(roots[i - 1]) == coordinate(roots[i])) return false;  // the order is not known
+  }
+  for (std::size_t i = 0; i < roots.size(); i += 2) {
+    if (starts_curve(roots[i]) == starts_curve(roots[i + 1])) throw LatticeDegenerate(to_angstrom(rect.lo));
+  }
+  for (std::size_t i = 0; i < roots.size(); i += 2) {
+    RectRoot from = roots[i], to = roots[i + 1];
+    if (!starts_curve(from)) std::swap(from, to);
+    points_[from.point].next = to.point;
+    points_[from.point].piece = static_cast<int>(pieces_.size());
+    pieces_.push_back({rect, along});
+  }
+  return true;
+}
+
+std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(int edge_axis, const CoordPoint& lo, Coord hi) {
+  CoordPoint end = lo;
+  end[edge_axis] = hi;
+  const Box box{to_angstrom(lo), to_angstrom(end)};
+  const LocalModel model(atoms_, field_.decay(), box);
+  std::vector<RectRoot> result;
+  for (const EdgeRoot& root : finder_.find(atoms_, model, edge_axis, lo, hi)) {
+    result.push_back({static_cast<int>(points_.size()), 0});
+    points_.push_back({root.point, kLocalVertex, root.side, false, -1, -1});
+  }
+  return result;
+}
+
+void FaceTracer::split_rect(const Rect& rect, const std::vector<RectRoot>& roots) {
+  const int a = first_axis(axis_), b = second_axis(axis_);
+  const bool cut_a = rect.hi[a] - rect.lo[a] > kSmallestRect, cut_b = rect.hi[b] - rect.lo[b] > kSmallestRect;
+  if (!cut_a || !cut_b) throw LatticeDegenerate(to_angstrom(rect.lo));
+  // An odd number of half units keeps roots, which are rounded to whole ones, off the cuts.
+  const Coord ma = rect.lo[a] + (rect.hi[a] - rect.lo[a]) / 2, mb = rect.lo[b] + (rect.hi[b] - rect.lo[b]) / 2;
+  CoordPoint centre = rect.lo;
+  centre[a] = ma;
+  centre[b] = mb;
+  CoordPoint low_a = centre, low_b = centre;
+  low_a[a] = rect.lo[a];
+  low_b[b] = rect.lo[b];
+  const std::vector<RectRoot> left = cut_roots(a, low_a, ma), right = cut_roots(a, centre, rect.hi[a]);
+  const std::vector<RectRoot> below = cut_roots(b, low_b, mb), above = cut_roots(b, centre, rect.hi[b]);
+
+  for (int part = 0; part < 4; ++part) {
+    const bool high_a = part & 1, high_b = part & 2;
+    Rect sub = rect;
+    (high_a ? sub.lo : sub.hi)[a] = ma;
+    (high_b ? sub.lo : sub.hi)[b] = mb;
+    std::vector<RectRoot> sub_roots;
+    for (const RectRoot& root : roots) {
+      const CoordPoint& p = points_[root.point].point.position;
+      const int along = root.side % 2 == 0 ? a : b;
+      const Coord cut = along == a ? ma : mb;
+      if (p[along] == cut) throw LatticeDegenerate(to_angstrom(p));
+      const bool on_side = root.side == 0 ? !high_b : root.side == 1 ? high_a : root.side == 2 ? high_b : !high_a;
+      if (on_side && (p[along] > cut) == (along == a ? high_a : high_b)) sub_roots.push_back(root);
+    }
+    for (RectRoot root : high_a ? right : left) sub_roots.push_back({root.point, high_b ? 0 : 2});
+    for (RectRoot root : high_b ? above : below) sub_roots.push_back({root.point, high_a ? 3 : 1});
+    const Box box{to_angstrom(sub.lo), to_angstrom(sub.hi)};
+    trace_rect(sub, certify_face(LocalModel(atoms_, field_.decay(), box), axis_, box), std::move(sub_roots));
+  }
+}
+
+void FaceTracer::collect_chains(std::span<const FaceRoot> roots) {
+  std::vector<bool> seen(points_.size(), false);
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    if (!starts_curve({static_cast<int>(i), roots[i].boundary_side})) continue;
+    chains_.push_back({static_cast<int>(i), false});
+    for (int p = static_cast<int>(i); p >= 0; p = points_[p].next) seen[p] = true;
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (seen[i]) continue;
+    chains_.push_back({static_cast<int>(i), true});
+    for (int p = static_cast<int>(i); !seen[p]; p = points_[p].next) {
+      if (points_[p].next < 0) throw LatticeDegenerate(to_angstrom(points_[p].point.position));
+      seen[p] = true;
+    }
+  }
+}
+
+int FaceTracer::length_of(const Chain& chain) const {
+  int count = points_[chain.first].kept;
+  for (int p = points_[chain.first].next; p >= 0 && p != chain.first; p = points_[p].next) count += points_[p].kept;
+  return count;
+}
+
+void FaceTracer::choose_points(const Chain& chain) {
+  if (chain.closed) {
+    if (points_[points_[chain.first].next].next == chain.first) {  // two points: both halves are arcs
+      const int second = points_[chain.first].next;
+      insert_middle(chain.first);
+      insert_middle(second);
+    }
+    // The extremes in both directions.
+    int extreme[4] = {chain.first, chain.first, chain.first, chain.first};
+    for (int p = points_[chain.first].next; p != chain.first; p = points_[p].next) {
+      const PlanePoint q = plane(p);
+      if (q.a < plane(extreme[0]).a) extreme[0] = p;
+      if (q.a > plane(extreme[1]).a) extreme[1] = p;
+      if (q.b < plane(extreme[2]).b) extreme[2] = p;
+      if (q.b > plane(extreme[3]).b) extreme[3] = p;
+    }
+    for (int p : extreme) points_[p].kept = true;
+    while (length_of(chain) < 3) refine_all();
+    return;
+  }
+  int last = chain.first;
+  while (points_[last].next >= 0) last = points_[last].next;
+  const PlanePoint p = plane(chain.first), q = plane(last);
+  const int a = first_axis(axis_), b = second_axis(axis_);
+  const bool same_a = p.a == q.a && (p.a == face_.lo[a] || p.a == face_.hi[a]);
+  const bool same_b = p.b == q.b && (p.b == face_.lo[b] || p.b == face_.hi[b]);
+  if (!same_a && !same_b) return;
+  // Both ends on one edge: keep the point farthest from it, the fold point.
+  if (points_[chain.first].next == last) {
+    points_[insert_turning_point(chain.first)].kept = true;
+    return;
+  }
+  int farthest = points_[chain.first].next;
+  const auto distance = [&](int i) { return same_a ? std::abs(plane(i).a - p.a) : std::abs(plane(i).b - p.b); };
+  for (int i = farthest; i != last; i = points_[i].next) {
+    if (distance(i) > distance(farthest)) farthest = i;
+  }
+  points_[farthest].kept = true;
+}
+
+SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
+  load_atoms();
+  const int along = piece.along;
+  const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
+  SurfacePoint result;
+  result.position = piece.rect.lo;
+  result.position[over] = std::clamp<Coord>(std::llround(at * kUnitsPerAngstrom), piece.rect.lo[over] + 1,
+                                            piece.rect.hi[over] - 1);
+  Vec3 start = to_angstrom(result.position), end = start;
+  end[along] = to_angstrom(piece.rect.hi[along]);
+  const LocalModel model(atoms_, field_.decay(), {start, end});
+  const bool inside_lo = is_inside(field_, atoms_, model, start);
+  if (inside_lo == is_inside(field_, atoms_, model, end)) throw LatticeDegenerate(start);
+  const LineRoot root = refine_root(atoms_, field_.decay(), start, along, start[along], end[along], inside_lo,
+                                    0.5 * (start[along] + end[along]), 0.0);
+  result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom),
+                                             piece.rect.lo[along] + 1, piece.rect.hi[along] - 1);
+  result.normal = outward_normal(root.gradient);
+  return result;
+}
+
+int FaceTracer::insert_between(int from, double at) {
+  const Piece piece = pieces_[points_[from].piece];
+  TracePoint point{solve_on_piece(piece, at), kLocalVertex, 0, false, points_[from].next, points_[from].piece};
+  points_.push_back(point);
+  return points_[from].next = static_cast<int>(points_.size()) - 1;
+}
+
+int FaceTracer::insert_middle(int from) {
+  const Piece& piece = pieces_[points_[from].piece];
+  const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
+  const Coord a = points_[from].point.position[over], b = points_[points_[from].next].point.position[over];
+  if (std::abs(a - b) < 3) throw LatticeDegenerate(to_angstrom(points_[from].point.position));
+  return insert_between(from, 0.5 * (to_angstrom(a) + to_angstrom(b)));
+}
+
+int FaceTracer::insert_turning_point(int from) {
+  // The fold point is where phi has no slope along the edge that both ends are on: bisection between the ends, whose
+  // slopes have opposite signs; a hundredth of the arc is near enough, the point is on the surface anyway.
+  const Piece piece = pieces_[points_[from].piece];
+  const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
+  Coord a = points_[from].point.position[over], b = points_[points_[from].next].point.position[over];
+  if (std::abs(a - b) < 3) throw LatticeDegenerate(to_angstrom(points_[from].point.position));
+  const int rising = points_[from].rise;  // slope along the edge at the end of the arc that `from` is
+  double lo = to_angstrom(a), hi = to_angstrom(b);
+  double middle = 0.5 * (lo + hi);
+  for (int i = 0; i < 7; ++i) {
+    middle = 0.5 * (lo + hi);
+    const SurfacePoint p = solve_on_piece(piece, middle);
+    const bool like_start = (p.normal[over] < 0.0f) == (rising > 0);  // the normal points against the gradient
+    (like_start ? lo : hi) = middle;
+  }
+  return insert_between(from, middle);
+}
+
+bool FaceTracer::polygons_cross() const {
+  struct Segment {
+    PlanePoint p, q;
+    int from, to;
+  };
+  std::vector<Segment> sides;
+  for (const Chain& chain : chains_) {
+    int start = chain.first;
+    while (!points_[start].kept) start = points_[start].next;
+    int from = start;
+    for (int p = points_[start].next; p >= 0; p = points_[p].next) {
+      if (points_[p].kept) {
+        sides.push_back({plane(from), plane(p), from, p});
+        from = p;
+      }
+      if (p == start) break;
+    }
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i].p == sides[i].q) return true;
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      const Segment &s = sides[i], &t = sides[j];
+      if (s.to == t.from && s.from == t.to) return true;
+      if (s.to == t.from) {
+        if (segments_overlap(s.q, s.p, t.q)) return true;
+      } else if (t.to == s.from) {
+        if (segments_overlap(t.q, t.p, s.q)) return true;
+      } else if (segments_meet(s.p, s.q, t.p, t.q)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void FaceTracer::refine_all() {
+  // First every point that the pieces already have; then the middles of the pieces.
+  bool all_kept = true;
+  for (TracePoint& p : points_) {
+    all_kept = all_kept && p.kept;
+    p.kept = true;
+  }
+  if (!all_kept) return;
+  const std::size_t count = points_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (points_[i].next >= 0) points_[insert_middle(static_cast<int>(i))].kept = true;
+  }
+}
+
+void FaceTracer::emit() {
+  for (TracePoint& p : points_) {
+    if (!p.kept || p.vertex != kLocalVertex) continue;
+    p.vertex = kLocalVertex + static_cast<std::uint32_t>(curves_.points.size());
+    curves_.points.push_back(p.point);
+  }
+  for (const Chain& chain : chains_) {
+    int start = chain.first;
+    while (!points_[start].kept) start = points_[start].next;
+    int from = start;
+    for (int p = points_[start].next; p >= 0; p = points_[p].next) {
+      if (points_[p].kept) {
+        curves_.links.push_back({points_[from].vertex, points_[p].vertex});
+        from = p;
+      }
+      if (p == start) break;
+    }
+  }
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,127 @@
+// The curves in which the surface cuts ONE rectangle of the lattice.
+//
+// The roots on its edges come from roots/; making loops of the curves on all faces of a cell is patch/.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/exact_plane.h"
+#include "field/gaussian_field.h"
+#include "roots/edge_roots.h"
+
+namespace gaussmesh {
+
+/// What bounds say of the section of the surface with a face.
+enum FaceCertificate : std::uint8_t {
+  kFaceUncertified = 0,
+  kFaceAlongFirst = 1,   ///< single-valued along the first axis of the face ...
+  kFaceAlongSecond = 2,  ///< ... along the second; both bits may be set
+  kFaceEmpty = 4,        ///< no surface in the closed face
+};
+
+/// The face's own axes: `axis` is its normal, (first, second, axis) is right-handed.
+inline constexpr int first_axis(int axis) { return (axis + 1) % 3; }
+inline constexpr int second_axis(int axis) { return (axis + 2) % 3; }
+
+/// Certificate of a face from a model over a box that contains it.
+FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face);
+
+/// A root on the boundary of a face.
+struct FaceRoot {
+  std::uint32_t vertex = 0;   ///< its number in the mesh
+  CoordPoint position{};
+  int boundary_side = 0;      ///< 0..3 counter-clockwise seen against the axis: low second, high first, high second, low first
+  int rise = 0;               ///< +1: the edge enters the molecule as its coordinate grows
+};
+
+/// A piece of a curve, from vertex to vertex, with the molecule on its left seen against the face's axis.
+struct Link {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
+
+/// Marks vertex numbers that count points made by the tracer (or by a patch) and not those of the mesh.
+inline constexpr std::uint32_t kLocalVertex = 0x80000000u;
+
+/// Curves of a face: links between roots, through `points` where a chord would not do.
+struct FaceCurves {
+  std::vector<Link> links;
+  std::vector<SurfacePoint> points;   ///< vertex numbers kLocalVertex + index
+};
+
+/// Follows the section curves of a face from root to root [CL11].
+///
+/// Where the face has a certificate along an axis m, the section is a graph over the other axis o, over disjoint
+/// intervals; the roots in order of o are their ends, two by two. A face without one is cut in four, and so on: the
+/// pieces are joined through the roots on the cuts, and curves that close inside the face are found too. Curves
+/// become chords between their ends; a curve that turns back to the edge it came from keeps its turning point - the
+/// fold point - and more points are kept where polygons would cross.
+/// Keeps buffers: one for each thread.
+class FaceTracer {
+ public:
+  FaceTracer(const GaussianField& field, const Lattice& lattice)
+      : field_(field), finder_(field, lattice) {}
+
+  /// @param hi  the corner of the rectangle opposite to `lo`; equal to it along `axis`
+  /// @throws LatticeDegenerate where roots and curves do not fit together to rounding
+  const FaceCurves& trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
+                          std::span<const FaceRoot> roots);
+
+ private:
+  struct TracePoint {
+    SurfacePoint point;
+    std::uint32_t vertex = 0;   ///< kLocalVertex for a point inside the face
+    int rise = 0;
+    bool kept = false;
+    int next = -1;              ///< index into points_
+    int piece = -1;             ///< piece that leads to `next`
+  };
+  struct Rect {
+    CoordPoint lo, hi;
+  };
+  struct Piece {
+    Rect rect;
+    int along = 0;              ///< axis along which the section is single-valued in rect
+  };
+  struct RectRoot {
+    int point;
+    int side;
+  };
+  struct Chain {
+    int first;
+    bool closed;
+  };
+
+  void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
+  bool pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots);
+  void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
+  std::vector<RectRoot> cut_roots(int edge_axis, const CoordPoint& lo, Coord hi);
+  void collect_chains(std::span<const FaceRoot> roots);
+  void choose_points(const Chain& chain);
+  int insert_between(int from, double at);
+  int insert_turning_point(int from);
+  int insert_middle(int from);
+  SurfacePoint solve_on_piece(const Piece& piece, double at);
+  bool polygons_cross() const;
+  void refine_all();
+  void emit();
+  void load_atoms();
+  PlanePoint plane(int point) const;
+  int length_of(const Chain& chain) const;
+  bool starts_curve(const RectRoot& root) const;
+
+  const GaussianField& field_;
+  EdgeRootFinder finder_;
+  NearAtoms atoms_;
+  bool atoms_loaded_ = false;
+  int axis_ = 0;
+  Rect face_;
+  std::vector<TracePoint> points_;
+  std::vector<Piece> pieces_;
+  std::vector<Chain> chains_;
+  FaceCurves curves_;
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,127 @@
+#include <nlohmann/json.hpp>
+
+#include "core/number_text.h"
+#include "gaussmesh/mesh_surface.h"
+#include "gaussmesh/version.h"
+
+namespace gaussmesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const MeshReport& report) {
+  const MeshOptions& o = report.options;
+  return {{"decay_per_A2", o.decay},
+          {"isovalue", o.isovalue},
+          {"isovalue_used", report.isovalue_used},
+          {"spacing_A", o.spacing},
+          {"threads", o.threads},
+          {"allow_uncertified", o.allow_uncertified}};
+}
+
+Json components_json(const MeshCheck& check) {
+  Json list = Json::array();
+  for (const MeshComponent& c : check.components) {
+    list.push_back({{"kind", c.volume < 0.0 ? "cavity" : "outside"},
+                    {"triangles", c.triangles},
+                    {"vertices", c.vertices},
+                    {"chi", c.chi},
+                    {"genus", c.genus},
+                    {"area_A2", c.area},
+                    {"volume_A3", c.volume}});
+  }
+  return list;
+}
+
+Json quality_json(const MeshCheck& check) {
+  return {{"min_angle_deg", check.min_angle_deg},
+          {"max_angle_deg", check.max_angle_deg},
+          {"mean_min_angle_deg", check.mean_min_angle_deg},
+          {"fraction_under_30_deg", check.under_30_deg},
+          {"mean_edge_ratio", check.mean_edge_ratio},
+          {"min_edge_A", check.min_edge},
+          {"mean_edge_A", check.mean_edge},
+          {"max_edge_A", check.max_edge}};
+}
+
+Json proof_json(const MeshReport& report) {
+  Json boxes = Json::array();
+  for (const BoxCount& b : report.boxes) boxes.push_back({{"size_A", b.size}, {"boxes", b.boxes}});
+  Json critical = Json::array();
+  for (const CriticalPlace& p : report.critical) {
+    critical.push_back({{"point_A", p.point},
+                        {"critical_value", p.value},
+                        {"distance_of_isovalue", std::abs(p.value - report.options.isovalue)}});
+  }
+  return {{"certified", report.certified},
+          {"boxes_per_level", boxes},
+          {"smallest_box_A", report.smallest_box},
+          {"cells", report.cells},
+          {"cells_cut_by_folds", report.cells_cut_by_folds},
+          {"cells_split", report.cells_split},
+          {"critical_places", critical}};
+}
+
+std::size_t count_cavities(const MeshCheck& check) {
+  std::size_t cavities = 0;
+  for (const MeshComponent& c : check.components) cavities += c.volume < 0.0;
+  return cavities;
+}
+
+std::string counted(std::size_t n, const std::string& singular, const std::string& plural) {
+  return std::to_string(n) + " " + (n == 1 ? singular : plural);
+}
+
+}  // namespace
+
+std::string report_json(const MeshReport& report) {
+  Json stages = Json::array();
+  for (const StageCost& s : report.stages) {
+    stages.push_back({{"stage", s.name}, {"time_s", s.time_s}, {"peak_memory_MB", s.peak_memory_MB}});
+  }
+  const MeshCheck& check = report.check;
+  Json json = {{"program", std::string("gaussmesh ") + kVersion},
+               {"atoms", report.atoms},
+               {"options", options_json(report)},
+               {"triangles", check.triangles},
+               {"vertices", check.vertices},
+               {"chi", check.chi},
+               {"area_A2", check.area},
+               {"volume_A3", check.volume},
+               {"certified", report.certified},
+               {"proof", proof_json(report)},
+               {"components", components_json(check)},
+               {"quality", quality_json(check)},
+               {"vertex_distance_max_A", report.vertex_distance_max},
+               {"stages", stages}};
+  return json.dump(2) + "\n";
+}
+
+std::string report_summary(const MeshReport& report) {
+  const MeshCheck& check = report.check;
+  const std::size_t cavities = count_cavities(check);
+  std::size_t handles = 0;
+  for (const MeshComponent& c : check.components) handles += static_cast<std::size_t>(c.genus);
+  double time_s = 0.0, memory_MB = 0.0;
+  for (const StageCost& s : report.stages) {
+    time_s += s.time_s;
+    memory_MB = s.peak_memory_MB;
+  }
+  std::string text = counted(report.atoms, "atom", "atoms") + ": " +
+                     counted(check.triangles, "triangle", "triangles") + ", " +
+                     counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) +
+                     " A^2, volume " + number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " +
+                     number_text(memory_MB, 3) + " MB\n";
+  const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
+                               counted(cavities, "cavity", "cavities") + ", " +
+                               counted(handles, "handle", "handles");
+  if (report.certified) {
+    text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface: " + topology;
+  } else {
+    text += "NOT certified: c is too near a critical value; meshed c = " + number_text(report.isovalue_used, 15) +
+            " instead: " + topology;
+  }
+  return text + "\n";
+}
+
+}  // namespace gaussmesh
