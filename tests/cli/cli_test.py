@@ -1,0 +1,312 @@
+#!/usr/bin/env python3
+"""What the program says and how it exits, seen from outside.
+
+    tests/cli/cli_test.py --program build/bin/gaussmesh --data data [CLASS...]
+
+Exit codes: 0 good, 1 internal, 2 wrong use, 3 input, 4 cannot mesh, 5 check failed. Standard library only.
+`--update-golden` writes the help texts anew instead of comparing them.
+"""
+
+import argparse
+import gzip
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+WRONG_USE = 2
+BAD_INPUT = 3
+CANNOT_MESH = 4
+CHECK_FAILED = 5
+
+GOLDEN = pathlib.Path(__file__).resolve().parent / "golden"
+settings = argparse.Namespace(program="", data=pathlib.Path(), update_golden=False)
+
+
+class CliTest(unittest.TestCase):
+    """A fresh folder for each test, and one way to run the program in it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="gaussmesh_cli_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.mesh = self.folder / "out.off"
+
+    def run_program(self, *arguments):
+        return subprocess.run([settings.program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=300, check=False)
+
+    def expect(self, code, *arguments):
+        result = self.run_program(*arguments)
+        said = f"{' '.join(map(str, arguments))}\nstdout: {result.stdout}\nstderr: {result.stderr}"
+        self.assertEqual(result.returncode, code, said)
+        return result
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def molecule(self, name):
+        return settings.data / f"{name}.pqr"
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+class Meshing(CliTest):
+    def test_small_molecules_pass_the_check(self):
+        for name in ["methanol", "dmso"]:
+            with self.subTest(name):
+                made = self.expect(0, self.molecule(name), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+                self.assertEqual(made.stderr, "")
+                self.assertLessEqual(len(made.stdout.splitlines()), 2, "a line or two on the terminal")
+                judged = self.expect(0, "check", self.mesh)
+                self.assertIn("OK", judged.stdout)
+                self.expect(0, "check", self.mesh, self.molecule(name), "--d", 0.6, "--c", 1.7)
+
+    def test_nothing_is_left_beside_the_mesh(self):
+        self.expect(0, self.molecule("methanol"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.assertEqual(self.files(), ["out.off"])
+
+    def test_an_old_mesh_is_replaced(self):
+        self.mesh.write_text("old")
+        self.expect(0, self.molecule("methanol"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.assertTrue(self.mesh.read_text().startswith("OFF"))
+
+    def test_same_bits_for_any_threads_and_atom_order(self):
+        lines = self.molecule("dmso").read_text().splitlines(keepends=True)
+        seed = random.randrange(2**32)
+        random.Random(seed).shuffle(lines)
+        shuffled = self.write("shuffled.pqr", "".join(lines))
+        bits = set()
+        for molecule, threads in [(self.molecule("dmso"), 1), (self.molecule("dmso"), 2), (shuffled, 2)]:
+            self.expect(0, molecule, "--d", 0.6, "--c", 1.7, "--threads", threads, "-o", self.mesh)
+            bits.add(self.mesh.read_bytes())
+        self.assertEqual(len(bits), 1, f"shuffled with seed {seed}")
+
+    def test_gzipped_input(self):
+        packed = self.write("methanol.pqr.gz", gzip.compress(self.molecule("methanol").read_bytes()))
+        self.expect(0, packed, "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        from_gzip = self.mesh.read_bytes()
+        self.expect(0, self.molecule("methanol"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.assertEqual(from_gzip, self.mesh.read_bytes())
+
+    def test_spacing_sets_the_size_of_the_triangles(self):
+        counts = []
+        for spacing in [0.3, 0.6]:
+            self.expect(0, self.molecule("dmso"), "--d", 0.6, "--c", 1.7, "--spacing", spacing, "-o", self.mesh)
+            counts.append(int(self.mesh.read_text().split()[2]))
+        self.assertGreater(counts[0], 2.5 * counts[1])
+
+    def test_two_far_spheres(self):
+        atom = "ATOM {0} C X 1 {1} 0.0 0.0 0.0 2.0\n"
+        molecule = self.write("far.pqr", atom.format(1, "0.0") + atom.format(2, "1000000.0"))
+        report = self.folder / "far.json"
+        self.expect(0, molecule, "--d", 0.6, "--c", 1.7, "-o", self.mesh, "--report", report)
+        self.assertEqual(len(json.loads(report.read_text())["components"]), 2)
+        self.expect(0, "check", self.mesh)
+
+
+class BadInput(CliTest):
+    GOOD = "ATOM      1  C   X       1       0.000   0.000   0.000  0.00 2.00\n"
+
+    def refused(self, text, where):
+        """Exit 3, a message that begins with the place, no mesh, and an older mesh left as it was."""
+        molecule = self.write("bad.pqr", text)
+        for old in [None, "an older mesh\n"]:
+            if old is not None:
+                self.mesh.write_text(old)
+            result = self.expect(BAD_INPUT, molecule, "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+            self.assertRegex(result.stderr, rf"bad\.pqr{where}: .+")
+            self.assertEqual(result.stdout, "")
+            self.assertEqual(self.files(), ["bad.pqr"] if old is None else ["bad.pqr", "out.off"])
+            if old is not None:
+                self.assertEqual(self.mesh.read_text(), old)
+
+    def test_text_for_a_number(self):
+        self.refused(self.GOOD + self.GOOD.replace("0.000  0.00 2.00", "zero  0.00 2.00"), ":2")
+
+    def test_negative_radius(self):
+        self.refused(self.GOOD * 2 + self.GOOD.replace("2.00", "-1.20"), ":3")
+
+    def test_the_message_quotes_what_it_got(self):
+        molecule = self.write("bad.pqr", self.GOOD.replace("2.00", "-1.20"))
+        result = self.expect(BAD_INPUT, molecule, "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.assertIn("'-1.20'", result.stderr)
+
+    def test_infinite_coordinate(self):
+        self.refused(self.GOOD.replace("   0.000   0.000   0.000", "   inf   0.000   0.000"), ":1")
+
+    def test_missing_radius(self):
+        self.refused(self.GOOD + self.GOOD.replace(" 2.00", ""), ":2")
+
+    def test_empty_file(self):
+        self.refused("", "(:[0-9]+)?")
+
+    def test_no_atoms(self):
+        self.refused("REMARK nothing here\nEND\n", "(:[0-9]+)?")
+
+    def test_binary(self):
+        self.refused(bytes(random.Random(1).randrange(256) for _ in range(5000)), "(:[0-9]+)?")
+
+    def test_missing_file(self):
+        result = self.expect(BAD_INPUT, "no_such_file.pqr", "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.assertIn("no_such_file.pqr: ", result.stderr)
+        self.assertEqual(self.files(), [])
+
+
+class WrongUse(CliTest):
+    def refused(self, *arguments, names=""):
+        self.mesh.write_text("an older mesh\n")
+        result = self.expect(WRONG_USE, *arguments)
+        self.assertIn(names, result.stderr)
+        self.assertNotEqual(result.stderr, "")
+        self.assertEqual(self.mesh.read_text(), "an older mesh\n")
+
+    def test_unknown_option(self):
+        self.refused(self.molecule("methanol"), "-o", self.mesh, "--no-such-option", names="--no-such-option")
+
+    def test_no_molecule(self):
+        self.refused("-o", self.mesh)
+
+    def test_values_out_of_range(self):
+        for option, values in {"--d": ["0", "-1", "nan", "inf", "x", ""], "--c": ["0", "-2", "nan", "inf", "x"],
+                               "--spacing": ["0", "-0.5", "nan", "inf", "x"], "--threads": ["-1", "1.5", "x"]}.items():
+            for value in values:
+                with self.subTest(option=option, value=value):
+                    self.refused(self.molecule("methanol"), "-o", self.mesh, f"{option}={value}", names=option)
+
+    def test_messages_are_readable(self):
+        result = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, "--d=-1")
+        self.assertLess(max(map(len, result.stderr.splitlines())), 200)
+
+    def test_check_of_nothing(self):
+        self.refused("check")
+
+
+class NothingToMesh(CliTest):
+    def test_level_above_phi_everywhere(self):
+        for old in [None, "an older mesh\n"]:
+            if old is not None:
+                self.mesh.write_text(old)
+            result = self.expect(CANNOT_MESH, self.molecule("methanol"), "--d", 0.6, "--c", 1e6, "-o", self.mesh)
+            self.assertRegex((result.stdout + result.stderr).lower(), "nothing to mesh")
+            self.assertEqual(self.files(), [] if old is None else ["out.off"])
+            if old is not None:
+                self.assertEqual(self.mesh.read_text(), old)
+
+
+class NearCritical(CliTest):
+    """Two atoms at the very isovalue where their spheres touch: phi at the middle is c up to rounding."""
+
+    def setUp(self):
+        super().setUp()
+        atom = "ATOM {0} C X 1 {1} 0.0 0.0 0.0 1.0\n"
+        self.touching = self.write("touching.pqr", atom.format(1, "-1.5") + atom.format(2, "1.5"))
+        # phi(0) = 2 exp(-0.6 (1.5^2 - 1)) = 2 exp(-0.75), a saddle point.
+        self.level = repr(2 * 0.4723665527410147)
+
+    def test_names_the_place_and_exits_4(self):
+        result = self.expect(CANNOT_MESH, self.touching, "--d", 0.6, "--c", self.level, "-o", self.mesh)
+        self.assertIn("critical", result.stderr)
+        self.assertEqual(self.files(), ["touching.pqr"])
+
+    def test_can_be_told_to_go_on(self):
+        report = self.folder / "report.json"
+        self.expect(0, self.touching, "--d", 0.6, "--c", self.level, "-o", self.mesh, "--allow-uncertified",
+                    "--report", report)
+        self.assertIs(json.loads(report.read_text())["certified"], False)
+
+
+class Report(CliTest):
+    def test_everything_is_in_it(self):
+        report = self.folder / "report.json"
+        self.expect(0, self.molecule("dmso"), "--d", 0.6, "--c", 1.7, "-o", self.mesh, "--report", report)
+        said = json.loads(report.read_text(), parse_constant=lambda text: self.fail(f"{text} is not JSON"))
+        self.assertEqual(said["atoms"], 10)
+        self.assertIs(said["certified"], True)
+        self.assertEqual(said["chi"], 2)
+        vertices, triangles = map(int, self.mesh.read_text().split()[1:3])
+        self.assertEqual((said["vertices"], said["triangles"]), (vertices, triangles))
+        self.assertEqual(len(said["components"]), 1)
+        self.assertEqual(said["components"][0]["genus"], 0)
+
+
+class Check(CliTest):
+    VERTICES = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"]
+    FACES = ["3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3"]
+
+    def off(self, faces, vertices=None):
+        vertices = vertices or self.VERTICES
+        return self.write("mesh.off", "\n".join(["OFF", f"{len(vertices)} {len(faces)} 0", *vertices, *faces, ""]))
+
+    def test_tetrahedron(self):
+        self.assertIn("OK", self.expect(0, "check", self.off(self.FACES)).stdout)
+
+    def test_hole(self):
+        self.assertNotIn("OK", self.expect(CHECK_FAILED, "check", self.off(self.FACES[:3])).stdout)
+
+    def test_one_face_turned(self):
+        self.expect(CHECK_FAILED, "check", self.off([*self.FACES[:3], "3 1 3 2"]))
+
+    def test_inside_out(self):
+        turned = [" ".join([f, a, c, b]) for f, a, b, c in map(str.split, self.FACES)]
+        self.expect(CHECK_FAILED, "check", self.off(turned))
+
+    def test_crossing_tetrahedra(self):
+        moved = ["0.1 0.1 0.1", "1.1 0.1 0.1", "0.1 1.1 0.1", "0.1 0.1 1.1"]
+        shifted = [" ".join(["3", *(str(int(v) + 4) for v in face.split()[1:])]) for face in self.FACES]
+        self.expect(CHECK_FAILED, "check", self.off(self.FACES + shifted, self.VERTICES + moved))
+
+    def test_not_a_mesh(self):
+        result = self.expect(BAD_INPUT, "check", self.write("mesh.off", "OFF\n1 1 0\n0 0 zero\n3 0 0 0\n"))
+        self.assertRegex(result.stderr, r"mesh\.off:3: .+")
+
+    def test_off_the_surface(self):
+        self.expect(0, self.molecule("methanol"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+        self.expect(0, "check", self.mesh, self.molecule("methanol"), "--d", 0.6, "--c", 1.7)
+        self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("methanol"), "--d", 0.6, "--c", 1.6)
+
+
+class Help(CliTest):
+    """Help texts are golden files, compared word by word: line breaks are the argument parser's business."""
+
+    def same_as_golden(self, name, *arguments):
+        text = self.expect(0, *arguments).stdout
+        golden = GOLDEN / f"{name}.txt"
+        if settings.update_golden:
+            golden.parent.mkdir(exist_ok=True)
+            golden.write_text(text)
+        self.assertEqual(text.lower().split(), golden.read_text().lower().split())
+
+    def test_program(self):
+        self.same_as_golden("help", "--help")
+
+    def test_check(self):
+        self.same_as_golden("help_check", "check", "--help")
+
+    def test_version(self):
+        self.assertRegex(self.expect(0, "--version").stdout, re.compile(r"^(gaussmesh )?\d+\.\d+\.\d+\n$"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Tests of the program's exit codes and messages.")
+    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser.add_argument("--data", required=True, type=pathlib.Path, help="folder with methanol.pqr and dmso.pqr")
+    parser.add_argument("--update-golden", action="store_true")
+    parser.add_argument("tests", nargs="*", help="classes or Class.test_name; all where none is given")
+    parser.parse_args(namespace=settings)
+    settings.program, settings.data = settings.program.resolve(), settings.data.resolve()
+    loader = unittest.defaultTestLoader
+    module = sys.modules[__name__]
+    suite = loader.loadTestsFromNames(settings.tests, module) if settings.tests else loader.loadTestsFromModule(module)
+    return 0 if unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful() else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
