@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace gaussmesh {
@@ -51,6 +52,11 @@ inline Box lattice_box(const Lattice& lattice, const FineIndex& lo, const FineIn
   return {to_angstrom(lattice.point(lo)), to_angstrom(lattice.point(hi))};
 }
 
+inline FineIndex moved(FineIndex n, int axis, std::int64_t by) {
+  n[axis] += by;
+  return n;
+}
+
 /// One cell: a cube of the lattice at one level of subdivision.
 struct CellKey {
   FineIndex lo{};
@@ -62,6 +68,14 @@ inline FineIndex cell_hi(const CellKey& cell) {
   const std::int64_t size = fine_size(cell.level);
   return {cell.lo[0] + size, cell.lo[1] + size, cell.lo[2] + size};
 }
+
+struct CellKeyHash {
+  std::size_t operator()(const CellKey& key) const {
+    std::uint64_t h = static_cast<std::uint64_t>(key.level);
+    for (std::int64_t v : key.lo) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
+    return h ^ (h >> 32);
+  }
+};
 
 inline Box cell_box(const Lattice& lattice, const CellKey& cell) {
   return lattice_box(lattice, cell.lo, cell_hi(cell));

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/lattice_degenerate.h"
 #include "patch/triangle_shape.h"
 
 namespace gaussmesh {
 namespace {
-
-constexpr double kImpossible = std::numeric_limits<double>::infinity();
 
 /// Twice the area of a polygon, for its sign and rough size only.
 double doubled_area(const auto& polygon) {
@@ -196,57 +193,38 @@ double PatchTriangulator::triangle_cost(const Corner& p, const Corner& q, const 
 }
 
 double PatchTriangulator::best_triangulation(const Polygon& polygon) {
-  const int n = static_cast<int>(polygon.size());
-  cost_.assign(static_cast<std::size_t>(n) * n, kImpossible);
-  choice_.assign(static_cast<std::size_t>(n) * n, -1);
-  for (int i = 0; i + 1 < n; ++i) cost_[i * n + i + 1] = 0.0;
-  for (int width = 2; width < n; ++width) {
-    for (int i = 0; i + width < n; ++i) {
-      const int j = i + width;
-      if (!(i == 0 && j == n - 1) && !diagonal_is_free(polygon, i, j)) continue;
-      for (int k = i + 1; k < j; ++k) {
-        const double parts = cost_[i * n + k] + cost_[k * n + j];
-        if (parts >= cost_[i * n + j]) continue;
-        const double total = parts + triangle_cost(polygon[i], polygon[k], polygon[j]);
-        if (total < cost_[i * n + j]) {
-          cost_[i * n + j] = total;
-          choice_[i * n + j] = k;
-        }
-      }
-    }
-  }
-  return cost_[n - 1];
+  return minimal_.solve(
+      static_cast<int>(polygon.size()), [&](int i, int j) { return diagonal_is_free(polygon, i, j); },
+      [&](int i, int j, int k) { return triangle_cost(polygon[i], polygon[j], polygon[k]); });
 }
 
 bool PatchTriangulator::triangulate_polygon(const Polygon& polygon) {
   const double cost = best_triangulation(polygon);
   const auto n = static_cast<double>(polygon.size());
   if (cost < kPoorTriangle + n) {
-    take_triangles(polygon, 0, static_cast<int>(polygon.size()) - 1);
+    take_triangles(polygon);
     return true;
   }
   // None, or one with a triangle turned far from the surface: a point inside the cell gives more freedom.
   Polygon richer = polygon;
   if (add_inner_corner(richer)) {
     if (best_triangulation(richer) < cost) {
-      take_triangles(richer, 0, static_cast<int>(richer.size()) - 1);
+      take_triangles(richer);
       return true;
     }
     drop_last_point();
   }
   if (cost == kImpossible) return false;
   best_triangulation(polygon);
-  take_triangles(polygon, 0, static_cast<int>(polygon.size()) - 1);
+  take_triangles(polygon);
   return true;
 }
 
-void PatchTriangulator::take_triangles(const Polygon& polygon, int i, int j) {
-  if (j - i < 2) return;
-  const int k = choice_[i * static_cast<int>(polygon.size()) + j];
-  take_triangles(polygon, i, k);
-  patch_.triangles.push_back({vertices_[polygon[i].vertex].vertex, vertices_[polygon[k].vertex].vertex,
-                              vertices_[polygon[j].vertex].vertex});
-  take_triangles(polygon, k, j);
+void PatchTriangulator::take_triangles(const Polygon& polygon) {
+  minimal_.visit([&](int i, int j, int k) {
+    patch_.triangles.push_back({vertices_[polygon[i].vertex].vertex, vertices_[polygon[j].vertex].vertex,
+                                vertices_[polygon[k].vertex].vertex});
+  });
 }
 
 bool PatchTriangulator::add_inner_corner(Polygon& polygon) {
@@ -304,7 +282,7 @@ int PatchTriangulator::lift(const PlanePoint& at) {
   p[axis_] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis_] + 1, hi_[axis_] - 1);
   LoopVertex v;
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());
-  v.point = {p, outward_normal(root.gradient)};
+  v.point = {p, outward_normal(root.gradient), 0};
   patch_.points.push_back(v.point);
   vertices_.push_back(v);
   return static_cast<int>(vertices_.size()) - 1;

@@ -10,6 +10,7 @@
 #include "core/exact_plane.h"
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
+#include "patch/minimal_triangulation.h"
 #include "trace/face_tracer.h"
 
 namespace gaussmesh {
@@ -63,7 +64,7 @@ class PatchTriangulator {
   bool bridge(Polygon& outer, const Polygon& hole);
   bool triangulate_polygon(const Polygon& polygon);
   double best_triangulation(const Polygon& polygon);
-  void take_triangles(const Polygon& polygon, int i, int j);
+  void take_triangles(const Polygon& polygon);
   double triangle_cost(const Corner& p, const Corner& q, const Corner& r) const;
   bool diagonal_is_free(const Polygon& polygon, int i, int j) const;
   bool segment_is_clear(const Polygon& polygon, const Corner& p, const Corner& q) const;
@@ -80,8 +81,7 @@ class PatchTriangulator {
   bool on_outline_ = true;              ///< every corner on the outline of the square: polygons are convex
   std::vector<LoopVertex> vertices_;
   std::vector<Polygon> polygons_, holes_;
-  std::vector<double> cost_;
-  std::vector<int> choice_;
+  MinimalTriangulation minimal_;
   Patch patch_;
 };
 

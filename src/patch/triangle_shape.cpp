@@ -19,14 +19,16 @@ double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoi
   const Vec3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
   const double doubled_area = std::sqrt(dot(n, n));
   const double edges_sq = dot(u, u) + dot(v, v) + dot(w, w);
-  if (doubled_area == 0.0) return 100.0 * kPoorTriangle;
+  if (doubled_area == 0.0) return 10.0 * kTurnedTriangle;
   Vec3 field{};
   for (int k = 0; k < 3; ++k) field[k] = double(p.normal[k]) + double(q.normal[k]) + double(r.normal[k]);
   const double cosine = dot(n, field) / (doubled_area * std::sqrt(dot(field, field)) + 1e-300);
   const double quality = 2.0 * std::sqrt(3.0) * doubled_area / edges_sq;
   // Within 60 degrees of the field's normal shape decides; beyond, the normal.
-  const double turned = cosine < 0.5 ? kPoorTriangle * (1.0 + 4.0 * (0.5 - cosine)) : 2.0 * (1.0 - cosine);
-  return 1.0 - quality + turned;
+  if (cosine >= 0.5) return 1.0 - quality + 2.0 * (1.0 - cosine);
+  constexpr double kCosineOfTurned = 0.087;
+  if (cosine >= kCosineOfTurned) return 1.0 - quality + kPoorTriangle * (1.0 + 4.0 * (0.5 - cosine));
+  return 1.0 - quality + kTurnedTriangle * (1.0 + (kCosineOfTurned - cosine));
 }
 
 }  // namespace gaussmesh

@@ -5,8 +5,11 @@
 
 namespace gaussmesh {
 
-/// From here on a triangle's cost says that it is turned far from the surface: see shape_cost().
+/// From here on a triangle's cost says that it is turned more than 60 degrees from the surface: see shape_cost().
 inline constexpr double kPoorTriangle = 10.0;
+
+/// From here on it says that it is turned more than 85 degrees.
+inline constexpr double kTurnedTriangle = 100.0;
 
 /// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
 /// squared edges, and much more for a triangle whose normal is far from the field's at its corners.

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 
-#include "core/lattice_degenerate.h"
 #include "core/parallel.h"
 #include "gaussmesh/error.h"
-#include "patch/patch_triangulator.h"
+#include "pipeline/loop_collector.h"
 
 namespace gaussmesh {
 namespace {
-
-FineIndex moved(FineIndex n, int axis, std::int64_t by) {
-  n[axis] += by;
-  return n;
-}
 
 /// Follows the curves on the faces that one brick owns.
 class BrickTracer {
@@ -50,7 +44,7 @@ class BrickTracer {
     collect_roots(place, axis);
     if (cell.face[axis] != kFaceUncertified) {
       if (roots_.empty()) return;
-      if (roots_.size() == 2 && roots_[0].boundary_side != roots_[1].boundary_side) {
+      if (cell.fold_axes[axis] == 0 && roots_.size() == 2 && roots_[0].boundary_side != roots_[1].boundary_side) {
         const bool first_starts = roots_[0].boundary_side < 2 ? roots_[0].rise < 0 : roots_[0].rise > 0;
         const auto [from, to] = first_starts ? std::pair(0, 1) : std::pair(1, 0);
         result.links.push_back({roots_[from].vertex, roots_[to].vertex});
@@ -61,7 +55,7 @@ class BrickTracer {
     CoordPoint hi = lo;
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
-    const FaceCurves& curves = tracer_.trace(axis, lo, hi, cell.face[axis], roots_);
+    const FaceCurves& curves = tracer_.trace(axis, lo, hi, cell.face[axis], roots_, cell.fold_axes[axis]);
     const auto base = static_cast<std::uint32_t>(result.points.size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
@@ -95,12 +89,18 @@ class BrickTracer {
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const std::vector<SurfacePoint>& points)
-      : lattice_(lattice), store_(store), split_(split), points_(points), triangulator_(field) {}
+              const FoldCellMap& folds, const std::vector<SurfacePoint>& points)
+      : lattice_(lattice),
+        store_(store),
+        folds_(folds),
+        collector_(lattice, store, split, points),
+        triangulator_(field),
+        fold_triangulator_(field) {}
 
   struct Result {
     std::vector<Triangle> triangles;
     std::vector<SurfacePoint> points;
+    std::size_t fold_cells = 0;
     std::vector<CellKey> failed;
   };
 
@@ -114,20 +114,16 @@ class CellPatcher {
 
  private:
   void patch(const CellKey& key, int axis, int sign, std::uint32_t hint, Result& result) {
-    links_.clear();
-    const std::int64_t size = fine_size(key.level);
-    for (int k = 0; k < 3; ++k) {
-      collect_links(k, key.lo, key.level, hint, false);
-      collect_links(k, moved(key.lo, k, size), key.level, hint, true);
-    }
-    if (links_.empty()) return;
-    const CoordPoint lo = lattice_.point(key.lo), hi = lattice_.point(cell_hi(key));
-    build_loops(lo, hi);
-    const Patch& patch = triangulator_.triangulate(lo, hi, axis, sign, loops_);
+    const std::span<const Loop> loops = collector_.collect(key, hint);
+    if (loops.empty()) return;
+    const Patch& patch =
+        sign != 0 ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), axis, sign, loops)
+                  : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
     if (!patch.complete) {
       result.failed.push_back(key);
       return;
     }
+    result.fold_cells += sign == 0;
     const auto base = static_cast<std::uint32_t>(result.points.size());
     for (Triangle t : patch.triangles) {
       for (std::uint32_t& v : t) v = v >= kLocalVertex ? v + base : v;
@@ -136,66 +132,16 @@ class CellPatcher {
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
 
-  /// Links of the face at `lo`; the surface of a cell has it on its left below a face, on its right above one.
-  void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
-    std::span<const Link> links;
-    if (level == 0) {
-      const auto place = store_.find(lo, hint);
-      if (!place) return;
-      if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
-      links = store_.face_links(*place, axis);
-    } else {
-      if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
-      links = split_.face_links(axis, lo, level);
-    }
-    for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);
-  }
-
-  void collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
-    const std::int64_t half = fine_size(level + 1);
-    for (int part = 0; part < 4; ++part) {
-      const FineIndex corner = moved(moved(lo, first_axis(axis), (part & 1) * half), second_axis(axis),
-                                     (part >> 1) * half);
-      collect_links(axis, corner, level + 1, hint, high_side);
-    }
-  }
-
-  void build_loops(const CoordPoint& lo, const CoordPoint& hi) {
-    loops_.clear();
-    used_.assign(links_.size(), false);
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      if (used_[i]) continue;
-      Loop& loop = loops_.emplace_back();
-      std::size_t at = i;
-      while (!used_[at]) {
-        used_[at] = true;
-        const SurfacePoint& point = points_[links_[at].from];
-        loop.push_back({links_[at].from, point, faces_of(point.position, lo, hi)});
-        const auto next = std::find_if(links_.begin(), links_.end(),
-                                       [&](const Link& link) { return link.from == links_[at].to; });
-        if (next == links_.end()) throw LatticeDegenerate(to_angstrom(point.position));
-        at = static_cast<std::size_t>(next - links_.begin());
-      }
-      if (at != i) throw LatticeDegenerate(to_angstrom(points_[links_[at].from].position));
-    }
-  }
-
   const Lattice& lattice_;
   const CellStore& store_;
-  const SplitLattice& split_;
-  const std::vector<SurfacePoint>& points_;
+  const FoldCellMap& folds_;
+  LoopCollector collector_;
   PatchTriangulator triangulator_;
-  std::vector<Link> links_;
-  std::vector<bool> used_;
-  std::vector<Loop> loops_;
+  FoldTriangulator fold_triangulator_;
 };
 
 std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split) {
-  std::vector<SurfacePoint> points;
-  for (const Brick& brick : store.bricks()) {
-    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
-  }
-  points.insert(points.end(), split.points().begin(), split.points().end());
+  std::vector<SurfacePoint> points = split.lattice_points();
   for (const Brick& brick : store.bricks()) {
     points.insert(points.end(), brick.face_points.begin(), brick.face_points.end());
   }
@@ -233,7 +179,7 @@ void trace_level_zero_faces(const GaussianField& field, const Lattice& lattice, 
 }
 
 PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
-                               const SplitLattice& split, int threads) {
+                               const SplitLattice& split, const FoldCellMap& folds, int threads) {
   PatchOutcome outcome;
   std::vector<SurfacePoint>& points = outcome.surface.points;
   points = collect_points(store, split);
@@ -242,7 +188,7 @@ PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattic
   const std::size_t leaf_tasks = (split.leaves().size() + kLeavesPerTask - 1) / kLeavesPerTask;
   std::vector<CellPatcher::Result> results(bricks + leaf_tasks);
   parallel_for(results.size(), threads, [&](std::size_t task) {
-    CellPatcher patcher(field, lattice, store, split, points);
+    CellPatcher patcher(field, lattice, store, split, folds, points);
     if (task < bricks) {
       const auto cells = static_cast<std::uint32_t>(store.bricks()[task].cells.size());
       for (std::uint32_t i = 0; i < cells; ++i) {
@@ -261,6 +207,7 @@ PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattic
       outcome.surface.triangles.push_back(t);
     }
     points.insert(points.end(), result.points.begin(), result.points.end());
+    outcome.fold_cells += result.fold_cells;
     outcome.failed.insert(outcome.failed.end(), result.failed.begin(), result.failed.end());
     result = {};
   }

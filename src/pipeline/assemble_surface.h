@@ -23,11 +23,12 @@ void trace_level_zero_faces(const GaussianField& field, const Lattice& lattice, 
 /// What triangulating the cells gave.
 struct PatchOutcome {
   TracedSurface surface;
-  std::vector<CellKey> failed;   ///< cells that found no embedded triangulation and must be split
+  std::size_t fold_cells = 0;    ///< cells cut along folds
+  std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };
 
 /// Makes loops of the curves round every cell and triangles of the loops. All curves have been traced.
 PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
-                               const SplitLattice& split, int threads);
+                               const SplitLattice& split, const FoldCellMap& folds, int threads);
 
 }  // namespace gaussmesh

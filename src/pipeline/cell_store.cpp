@@ -86,6 +86,14 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
   }
 }
 
+std::size_t CellStore::uncertified_cells() const {
+  std::size_t count = 0;
+  for (const Brick& brick : bricks_) {
+    for (const SurfaceCell& cell : brick.cells) count += cell.sign == 0;
+  }
+  return count;
+}
+
 std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32_t hint) const {
   constexpr std::int64_t kBrickFine = kBrickCells * kFinePerCell;
   BrickIndex index;

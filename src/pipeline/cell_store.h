@@ -19,6 +19,7 @@ struct SurfaceCell {
   std::int8_t sign = 0;             ///< of the certificate; 0: uncertified
   bool split = false;               ///< its surface is that of smaller cells
   std::uint8_t divided_faces = 0;   ///< bit k: the face across axis k is that of smaller cells
+  std::array<std::uint8_t, 3> fold_axes{};  ///< by face: axes whose fold points the curves need (bit mask)
   std::array<FaceCertificate, 3> face{};
   std::array<std::uint8_t, 3> root_count{};
   std::array<std::uint8_t, 3> link_count{};
@@ -71,6 +72,7 @@ class CellStore {
   std::span<const Link> face_links(const Place& place, int axis) const;
 
   std::uint32_t root_vertices() const { return root_vertices_; }
+  std::size_t uncertified_cells() const;
 
  private:
   struct IndexHash {

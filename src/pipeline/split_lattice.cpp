@@ -17,29 +17,26 @@ std::int64_t round_down(std::int64_t n, std::int64_t size) {
   return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
 }
 
-FineIndex moved(FineIndex n, int axis, std::int64_t by) {
-  n[axis] += by;
-  return n;
+/// Axes along which the components of a cell are cut.
+unsigned fold_axes_of(const FoldCell& cell) {
+  unsigned axes = 0;
+  for (const FoldComponent& c : cell.components) axes |= c.fold_axis >= 0 ? 1u << c.fold_axis : 0u;
+  return axes;
 }
 
 }  // namespace
 
-std::size_t CellKeyHash::operator()(const CellKey& key) const {
-  std::uint64_t h = static_cast<std::uint64_t>(key.level);
-  for (std::int64_t v : key.lo) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
-  return h ^ (h >> 32);
-}
-
-SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const CellSet& forced,
-                           int threads)
-    : field_(field), lattice_(lattice), store_(store) {
+SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store,
+                           const FoldCellMap& folds, const CellSet& forced, int threads)
+    : field_(field), lattice_(lattice), store_(store), folds_(folds) {
   std::vector<CellKey> roots;
   for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
     std::vector<SurfaceCell>& cells = store.bricks()[b].cells;
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      cells[i].divided_faces = 0;
       const CellKey key{store.lowest_corner({b, i}), 0};
-      cells[i].split = cells[i].sign == 0 || forced.contains(key);
+      cells[i].divided_faces = 0;
+      cells[i].fold_axes = {};
+      cells[i].split = forced.contains(key) || (cells[i].sign == 0 && !folds.contains(key));
       if (cells[i].split) roots.push_back(key);
     }
   }
@@ -53,6 +50,11 @@ SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, C
     split_.insert(branch.split.begin(), branch.split.end());
     uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
   }
+  mark_level_zero(roots);
+  if (uncertified_.empty()) find_edge_roots(threads);
+}
+
+void SplitLattice::mark_level_zero(const std::vector<CellKey>& roots) {
   for (const CellKey& key : roots) {
     const auto place = store_.find(key.lo);
     store_.cell(*place).divided_faces = 7;
@@ -61,7 +63,40 @@ SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, C
       if (next) store_.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
     }
   }
-  if (uncertified_.empty()) find_edge_roots(threads);
+  for (const auto& [key, cell] : folds_) {
+    if (key.level > 0 || split_.contains(key)) continue;
+    const auto axes = static_cast<std::uint8_t>(fold_axes_of(cell));
+    const auto place = store_.find(key.lo);
+    for (int axis = 0; axis < 3; ++axis) {
+      store_.cell(*place).fold_axes[axis] |= axes;
+      const auto next = store_.find(moved(key.lo, axis, kFinePerCell), place->brick);
+      if (next) store_.cell(*next).fold_axes[axis] |= axes;
+    }
+  }
+}
+
+unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
+  unsigned axes = 0;
+  for (const std::int64_t by : {std::int64_t{0}, -fine_size(face.level)}) {
+    const FineIndex beside = moved(face.lo, face.axis, by);
+    for (int level = 0; level <= face.level; ++level) {
+      CellKey key{{}, level};
+      for (int k = 0; k < 3; ++k) key.lo[k] = round_down(beside[k], fine_size(level));
+      const auto it = folds_.find(key);
+      if (it != folds_.end() && !split_.contains(key)) axes |= fold_axes_of(it->second);
+    }
+  }
+  return axes;
+}
+
+std::vector<SurfacePoint> SplitLattice::lattice_points() const {
+  std::vector<SurfacePoint> points;
+  points.reserve(next_vertex());
+  for (const Brick& brick : store_.bricks()) {
+    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
+  }
+  points.insert(points.end(), points_.begin(), points_.end());
+  return points;
 }
 
 void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const {
@@ -76,6 +111,8 @@ void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& 
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
     if (certified && !forced.contains(child)) {
       branch.leaves.push_back({child, certificate.axis, certificate.sign});
+    } else if (!certified && !forced.contains(child) && folds_.contains(child)) {
+      branch.leaves.push_back({child, 0, 0});
     } else if (child.level < kMaxLevel) {
       split(child, forced, prover, branch);
     } else {
@@ -192,7 +229,8 @@ void SplitLattice::trace_faces(int threads) {
     const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
     const std::vector<FaceRoot> roots = face_roots(face);
     FaceTracer tracer(field_, lattice_);
-    curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots);
+    curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots,
+                             fold_axes(face));
   });
   face_links_.resize(faces_.size());
   for (std::size_t i = 0; i < faces_.size(); ++i) {

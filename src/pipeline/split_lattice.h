@@ -1,10 +1,11 @@
 // The smaller cells: where a cell of the asked-for spacing has no certificate, it is split in eight, and so on.
 #pragma once
 
-#include <set>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "patch/fold_triangulator.h"
 #include "pipeline/cell_store.h"
 
 namespace gaussmesh {
@@ -15,16 +16,16 @@ struct UncertifiedPlace {
   double size = 0.0;
 };
 
-struct CellKeyHash {
-  std::size_t operator()(const CellKey& key) const;
-};
 using CellSet = std::unordered_set<CellKey, CellKeyHash>;
+
+/// Cells of any size that keep their size without a certificate, and what is cut along folds in them.
+using FoldCellMap = std::unordered_map<CellKey, FoldCell, CellKeyHash>;
 
 /// A smaller cell with its certificate.
 struct LeafCell {
   CellKey key;
   int axis = 0;
-  int sign = 0;
+  int sign = 0;      ///< 0: cut along folds
 };
 
 /// Cells below level 0, the roots on their edges and the curves on their faces.
@@ -33,14 +34,21 @@ struct LeafCell {
 /// cells that see a part of it. A face between cells of different size is that of the smaller ones.
 class SplitLattice {
  public:
-  /// Splits every cell of `store` that has no certificate, and the cells of `forced`; marks them, and the faces that
-  /// smaller cells take over, in `store`.
-  SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const CellSet& forced, int threads);
+  /// Splits every cell that has no certificate and is not in `folds`, and the cells of `forced`; marks them, and the
+  /// faces that smaller cells take over or that need fold points, in `store`.
+  SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const FoldCellMap& folds,
+               const CellSet& forced, int threads);
 
   const std::vector<LeafCell>& leaves() const { return leaves_; }
   std::size_t split_cells() const { return split_.size(); }
   const std::vector<UncertifiedPlace>& uncertified() const { return uncertified_; }
-  const std::vector<SurfacePoint>& points() const { return points_; }
+  bool is_split(const CellKey& key) const { return split_.contains(key); }
+
+  /// Number of the first vertex that is neither a root of level 0 nor of these cells.
+  std::uint32_t next_vertex() const { return first_vertex() + static_cast<std::uint32_t>(points_.size()); }
+
+  /// All vertices below next_vertex().
+  std::vector<SurfacePoint> lattice_points() const;
 
   /// Finds the curves on the faces of the leaves. Vertices are numbered from `first_vertex` on.
   void trace_faces(int threads);
@@ -48,10 +56,9 @@ class SplitLattice {
   bool is_divided(int axis, const FineIndex& lo, int level) const;
   std::span<const Link> face_links(int axis, const FineIndex& lo, int level) const;
 
-  /// Number of the first vertex that is not a root of level 0.
+ private:
   std::uint32_t first_vertex() const { return store_.root_vertices(); }
 
- private:
   struct LatticeKey {   ///< of an edge along `axis`, or of a face across it
     FineIndex lo{};
     int axis = 0;
@@ -65,6 +72,8 @@ class SplitLattice {
   };
 
   void split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const;
+  void mark_level_zero(const std::vector<CellKey>& roots);
+  unsigned fold_axes(const LatticeKey& face) const;
   void find_edge_roots(int threads);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
   std::vector<VertexRoot> roots_on(int axis, const FineIndex& lo, int level) const;
@@ -73,6 +82,7 @@ class SplitLattice {
   const GaussianField& field_;
   const Lattice& lattice_;
   CellStore& store_;
+  const FoldCellMap& folds_;
   CellSet split_;
   std::vector<LeafCell> leaves_;
   std::vector<UncertifiedPlace> uncertified_;

@@ -5,6 +5,7 @@
 
 #include "core/lattice_degenerate.h"
 #include "gaussmesh/error.h"
+#include "pipeline/find_fold_cells.h"
 
 namespace gaussmesh {
 namespace {
@@ -34,30 +35,48 @@ void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult&
   result.smallest_box = lattice.cell_size() * std::ldexp(1.0, -std::max(0, halvings));
 }
 
+/// The proof looked at cells at least as small as the leaves.
+void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult& result) {
+  for (const LeafCell& leaf : split.leaves()) {
+    result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
+  }
+}
+
 TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int threads, const StageClock& finished) {
   TraceResult result;
   CellStore store(field, lattice, threads);
   add_box_counts(store, lattice, result);
   finished("boxes and roots");
+  FoldCellMap folds;
+  if (store.uncertified_cells() > 0) {
+    const FoldCellMap none;
+    SplitLattice proof(field, lattice, store, none, {}, threads);
+    note_leaves(proof, lattice, result);
+    if (!proof.uncertified().empty()) {
+      result.uncertified = proof.uncertified();
+      return result;
+    }
+    proof.trace_faces(threads);
+    folds = find_fold_cells(lattice, store, proof, threads);
+    finished("folds");
+  }
   CellSet forced;
   for (int round = 0; round < kMaxRounds; ++round) {
-    SplitLattice split(field, lattice, store, forced, threads);
-    result.cells_split = split.split_cells();
-    for (const LeafCell& leaf : split.leaves()) {
-      result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
-    }
+    SplitLattice split(field, lattice, store, folds, forced, threads);
+    note_leaves(split, lattice, result);
     if (!split.uncertified().empty()) {
       result.uncertified = split.uncertified();
       return result;
     }
     split.trace_faces(threads);
-    const auto next_vertex = split.first_vertex() + static_cast<std::uint32_t>(split.points().size());
-    trace_level_zero_faces(field, lattice, store, next_vertex, threads);
+    trace_level_zero_faces(field, lattice, store, split.next_vertex(), threads);
     finished("curves");
-    PatchOutcome outcome = triangulate_cells(field, lattice, store, split, threads);
+    PatchOutcome outcome = triangulate_cells(field, lattice, store, split, folds, threads);
     finished("patches");
     if (outcome.failed.empty()) {
       result.surface = std::move(outcome.surface);
+      result.cells_split = split.split_cells();
+      result.cells_cut_by_folds = outcome.fold_cells;
       return result;
     }
     for (const CellKey& cell : outcome.failed) {

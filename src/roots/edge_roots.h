@@ -15,6 +15,7 @@ namespace gaussmesh {
 struct SurfacePoint {
   CoordPoint position{};
   std::array<float, 3> normal{};  ///< -grad phi / |grad phi|
+  std::uint8_t fold_axes = 0;     ///< bit k: a fold point, d(phi)/dx_k = 0 here
 };
 
 /// A place where a lattice edge goes through the surface.

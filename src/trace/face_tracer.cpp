@@ -41,7 +41,7 @@ void FaceTracer::load_atoms() {
 }
 
 const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
-                                    std::span<const FaceRoot> roots) {
+                                    std::span<const FaceRoot> roots, unsigned fold_axes) {
   axis_ = axis;
   face_ = {lo, hi};
   atoms_loaded_ = false;
@@ -54,7 +54,7 @@ const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordP
   std::vector<RectRoot> rect_roots;
   for (const FaceRoot& root : roots) {
     rect_roots.push_back({static_cast<int>(points_.size()), root.boundary_side});
-    points_.push_back({{root.position, {}}, root.vertex, root.rise, true, -1, -1});
+    points_.push_back({{root.position, {}, 0}, root.vertex, root.rise, true, -1, -1});
   }
   if (certificate == kFaceEmpty && roots.empty()) return curves_;
   trace_rect(face_, certificate, std::move(rect_roots));
@@ -62,6 +62,9 @@ const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordP
   bool straight = true;
   for (const Chain& chain : chains_) {
     choose_points(chain);
+    for (int k = 0; k < 3; ++k) {
+      if (fold_axes >> k & 1) keep_fold_points(chain, k);
+    }
     straight = straight && length_of(chain) == 2;
   }
   // Chords between different edges of a rectangle cannot cross when the curves do not; polygons can.
@@ -231,6 +234,53 @@ void FaceTracer::choose_points(const Chain& chain) {
     if (distance(i) > distance(farthest)) farthest = i;
   }
   points_[farthest].kept = true;
+}
+
+void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
+  load_atoms();
+  for (int p = chain.first; p >= 0;) {
+    if (points_[p].vertex != kLocalVertex) {
+      const PointValue value = evaluate(atoms_, field_.decay(), to_angstrom(points_[p].point.position));
+      points_[p].point.normal = outward_normal(value.gradient);
+    }
+    const int next = points_[p].next;
+    if (next < 0 || next == chain.first) break;
+    p = next;
+  }
+  for (int p = chain.first; points_[p].next >= 0;) {
+    const int next = points_[p].next;
+    insert_fold_points(p, axis);
+    p = next;
+    if (p == chain.first) break;
+  }
+}
+
+void FaceTracer::insert_fold_points(int from, int axis) {
+  constexpr int kSamples = 4;        // parts of a piece that are looked at for a change of sign
+  constexpr int kHalvings = 34;      // from a part of a cell to a unit of the coordinates
+  const int to = points_[from].next;
+  const Piece piece = pieces_[points_[from].piece];
+  const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
+  const double a = to_angstrom(points_[from].point.position[over]), b = to_angstrom(points_[to].point.position[over]);
+  if (std::abs(b - a) < 1e-6) return;
+  double lo = a;
+  float lo_slope = points_[from].point.normal[axis];
+  for (int i = 1; i <= kSamples; ++i) {
+    const double hi = i == kSamples ? b : a + (b - a) * i / kSamples;
+    const float hi_slope = i == kSamples ? points_[to].point.normal[axis] : solve_on_piece(piece, hi).normal[axis];
+    if (lo_slope * hi_slope < 0.0f) {
+      double p = lo, q = hi;
+      for (int step = 0; step < kHalvings && std::abs(q - p) > 2e-9; ++step) {
+        const double middle = 0.5 * (p + q);
+        (solve_on_piece(piece, middle).normal[axis] * lo_slope > 0.0f ? p : q) = middle;
+      }
+      from = insert_between(from, 0.5 * (p + q));
+      points_[from].kept = true;
+      points_[from].point.fold_axes = static_cast<std::uint8_t>(1u << axis);
+    }
+    lo = hi;
+    lo_slope = hi_slope;
+  }
 }
 
 SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {

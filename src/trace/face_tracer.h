@@ -64,10 +64,11 @@ class FaceTracer {
   FaceTracer(const GaussianField& field, const Lattice& lattice)
       : field_(field), finder_(field, lattice) {}
 
-  /// @param hi  the corner of the rectangle opposite to `lo`; equal to it along `axis`
+  /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`
+  /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of axis k
   /// @throws LatticeDegenerate where roots and curves do not fit together to rounding
   const FaceCurves& trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
-                          std::span<const FaceRoot> roots);
+                          std::span<const FaceRoot> roots, unsigned fold_axes = 0);
 
  private:
   struct TracePoint {
@@ -100,6 +101,8 @@ class FaceTracer {
   std::vector<RectRoot> cut_roots(int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
   void choose_points(const Chain& chain);
+  void keep_fold_points(const Chain& chain, int axis);
+  void insert_fold_points(int from, int axis);
   int insert_between(int from, double at);
   int insert_turning_point(int from);
   int insert_middle(int from);

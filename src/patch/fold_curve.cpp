@@ -1,0 +1,104 @@
+#include "patch/fold_curve.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "core/vector_exp.h"
+
+namespace gaussmesh {
+namespace {
+
+using Eigen::Vector3d;
+
+/// log(phi / c) with its first derivatives, and the second ones in one row of the Hessian.
+struct FoldJet {
+  double value = 0.0;
+  Vector3d gradient;
+  Vector3d hessian_row;   ///< derivatives of the slope along the axis
+};
+
+FoldJet fold_jet(const NearAtoms& atoms, double d, const Vector3d& p, int axis) {
+  double total = 0.0;
+  Vector3d first = Vector3d::Zero(), second = Vector3d::Zero();
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    const Vector3d u = p - Vector3d(atoms.x[i], atoms.y[i], atoms.z[i]);
+    const double a = vector_exp(atoms.w[i] - d * u.squaredNorm());
+    total += a;
+    first += a * u;
+    second += a * u[axis] * u;
+  }
+  const Vector3d mean = first / total;
+  FoldJet jet;
+  jet.value = std::log(total);
+  jet.gradient = -2.0 * d * mean;
+  jet.hessian_row = 4.0 * d * d * (second / total - mean[axis] * mean);
+  jet.hessian_row[axis] -= 2.0 * d;
+  return jet;
+}
+
+/// Newton's method for value = 0 and slope along the axis = 0, with steps of least length.
+std::optional<Vector3d> correct(const NearAtoms& atoms, double d, Vector3d p, int axis, double farthest) {
+  const Vector3d start = p;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const FoldJet jet = fold_jet(atoms, d, p, axis);
+    Eigen::Matrix<double, 2, 3> jacobian;
+    jacobian.row(0) = jet.gradient;
+    jacobian.row(1) = jet.hessian_row;
+    const Eigen::Vector2d residual(jet.value, jet.gradient[axis]);
+    const Eigen::Matrix2d normal = jacobian * jacobian.transpose();
+    if (!(std::abs(normal.determinant()) > 1e-12)) return std::nullopt;
+    const Vector3d step = -jacobian.transpose() * normal.inverse() * residual;
+    p += step;
+    if (!((p - start).norm() <= farthest)) return std::nullopt;
+    if (step.norm() < 1e-11) return p;
+  }
+  return std::nullopt;
+}
+
+bool is_in(const Box& box, const Vector3d& p) {
+  for (int k = 0; k < 3; ++k) {
+    if (p[k] < box.lo[k] || p[k] > box.hi[k]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Vec3> project_to_fold(const NearAtoms& atoms, double decay, const Vec3& near, int axis) {
+  const auto p = correct(atoms, decay, Vector3d(near[0], near[1], near[2]), axis, 0.5 / std::sqrt(decay));
+  if (!p) return std::nullopt;
+  return Vec3{(*p)[0], (*p)[1], (*p)[2]};
+}
+
+std::optional<FoldCurve> follow_fold(const NearAtoms& atoms, double decay, const Box& box, const Vec3& start,
+                                     int axis) {
+  const double size = box.hi[0] - box.lo[0];
+  const double step = size / 16.0;
+  const Vector3d middle(0.5 * (box.lo[0] + box.hi[0]), 0.5 * (box.lo[1] + box.hi[1]), 0.5 * (box.lo[2] + box.hi[2]));
+  const auto direction = [&](const Vector3d& p) {
+    const FoldJet jet = fold_jet(atoms, decay, p, axis);
+    return jet.gradient.cross(jet.hessian_row).normalized().eval();
+  };
+  Vector3d p(start[0], start[1], start[2]);
+  Vector3d forward = direction(p);
+  // Into the box: a short step one way stays in it, the other way leaves it.
+  if (!is_in(box, p + 1e-3 * step * forward)) forward = -forward;
+  if (!is_in(box, p + 1e-3 * step * forward)) return std::nullopt;
+
+  FoldCurve curve;
+  while (curve.length < 5.2 * size) {
+    const auto next = correct(atoms, decay, p + step * forward, axis, 0.5 * step);
+    if (!next) return std::nullopt;
+    curve.length += (*next - p).norm();
+    Vector3d tangent = direction(*next);
+    if (tangent.dot(forward) < 0.0) tangent = -tangent;
+    if (tangent.dot(forward) < 0.5) return std::nullopt;  // turns too fast to be followed with confidence
+    p = *next;
+    forward = tangent;
+    curve.points.push_back({p[0], p[1], p[2]});
+    if (!is_in(box, p)) return curve;
+  }
+  return std::nullopt;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,63 @@
+#include "pipeline/loop_collector.h"
+
+#include <algorithm>
+
+#include "core/lattice_degenerate.h"
+
+namespace gaussmesh {
+
+std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t hint) {
+  links_.clear();
+  for (int k = 0; k < 3; ++k) {
+    collect_links(k, key.lo, key.level, hint, false);
+    collect_links(k, moved(key.lo, k, fine_size(key.level)), key.level, hint, true);
+  }
+  build_loops(lattice_.point(key.lo), lattice_.point(cell_hi(key)));
+  return loops_;
+}
+
+// The surface of a cell is on the left of a link in its low faces, on the right of one in its high faces.
+void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
+  std::span<const Link> links;
+  if (level == 0) {
+    const auto place = store_.find(lo, hint);
+    if (!place) return;
+    if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
+    links = store_.face_links(*place, axis);
+  } else {
+    if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
+    links = split_.face_links(axis, lo, level);
+  }
+  for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);
+}
+
+void LoopCollector::collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
+  const std::int64_t half = fine_size(level + 1);
+  for (int part = 0; part < 4; ++part) {
+    const FineIndex corner = moved(moved(lo, first_axis(axis), (part & 1) * half), second_axis(axis),
+                                   (part >> 1) * half);
+    collect_links(axis, corner, level + 1, hint, high_side);
+  }
+}
+
+void LoopCollector::build_loops(const CoordPoint& lo, const CoordPoint& hi) {
+  loops_.clear();
+  used_.assign(links_.size(), false);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (used_[i]) continue;
+    Loop& loop = loops_.emplace_back();
+    std::size_t at = i;
+    while (!used_[at]) {
+      used_[at] = true;
+      const SurfacePoint& point = points_[links_[at].from];
+      loop.push_back({links_[at].from, point, faces_of(point.position, lo, hi)});
+      const auto next = std::find_if(links_.begin(), links_.end(),
+                                     [&](const Link& link) { return link.from == links_[at].to; });
+      if (next == links_.end()) throw LatticeDegenerate(to_angstrom(point.position));
+      at = static_cast<std::size_t>(next - links_.begin());
+    }
+    if (at != i) throw LatticeDegenerate(to_angstrom(points_[links_[at].from].position));
+  }
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,42 @@
+// The loops round ONE cell, whatever the sizes of its neighbours.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "patch/patch_triangulator.h"
+#include "pipeline/split_lattice.h"
+
+namespace gaussmesh {
+
+/// Gathers the curves on the faces of cells and closes them into loops. Keeps buffers: one for each thread.
+class LoopCollector {
+ public:
+  /// @param points  of all vertices that links name
+  LoopCollector(const Lattice& lattice, const CellStore& store, const SplitLattice& split,
+                const std::vector<SurfacePoint>& points)
+      : lattice_(lattice), store_(store), split_(split), points_(points) {}
+
+  /// @param hint  a brick near the cell
+  /// @return      the loops, counter-clockwise round the surface seen from the solvent; valid until the next call
+  /// @throws LatticeDegenerate if curves do not close
+  std::span<const Loop> collect(const CellKey& key, std::uint32_t hint);
+
+  /// The links that the loops of the last call are made of.
+  std::span<const Link> links() const { return links_; }
+
+ private:
+  void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);
+  void collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);
+  void build_loops(const CoordPoint& lo, const CoordPoint& hi);
+
+  const Lattice& lattice_;
+  const CellStore& store_;
+  const SplitLattice& split_;
+  const std::vector<SurfacePoint>& points_;
+  std::vector<Link> links_;
+  std::vector<bool> used_;
+  std::vector<Loop> loops_;
+};
+
+}  // namespace gaussmesh
