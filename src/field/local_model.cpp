@@ -38,19 +38,22 @@ FirstMoments first_moments(const double* x, const double* y, const double* z, co
 struct CentralMoments {
   double second[6]{};
   double third[10]{};
-  double fourth = 0.0;
   double growth = 0.0;
+  double remainder = 0.0;
+  Vec3 remainder_slope{};
 };
 
 /// Moments of y_i = -2 d (centre - x_i), centre = m - v.
 GAUSSMESH_SIMD_CLONES
 CentralMoments central_moments(const double* x, const double* y, const double* z, const double* weight, std::size_t n,
-                               double d, const double* centre, double rho) {
+                               double d, const double* centre, const double* half) {
+  const double hx = half[0], hy = half[1], hz = half[2];
   const double cx = centre[0], cy = centre[1], cz = centre[2], f = 2.0 * d;
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
   double xxx = 0, yyy = 0, zzz = 0, xxy = 0, xxz = 0, yyx = 0, yyz = 0, zzx = 0, zzy = 0, xyz = 0;
-  double fourth = 0, growth = 0;
-#pragma omp simd reduction(+ : xx, yy, zz, xy, xz, yz, xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz, fourth, growth)
+  double growth = 0, remainder = 0, rx = 0, ry = 0, rz = 0;
+#pragma omp simd reduction(+ : xx, yy, zz, xy, xz, yz, xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz) \
+    reduction(+ : growth, remainder, rx, ry, rz)
   for (std::size_t i = 0; i < n; ++i) {
     const double px = f * (x[i] - cx), py = f * (y[i] - cy), pz = f * (z[i] - cz);
     const double a = weight[i];
@@ -72,12 +75,23 @@ CentralMoments central_moments(const double* x, const double* y, const double* z
     zzx += azz * px;
     zzy += azz * py;
     xyz += axy * pz;
-    const double q = px * px + py * py + pz * pz;
-    const double e = a * vector_exp(__builtin_sqrt(q) * rho);
-    fourth += e * q * q;
-    growth += e;
+    const double sx = std::abs(px), sy = std::abs(py), sz = std::abs(pz);
+    const double t = sx * hx + sy * hy + sz * hz;
+    const double e = vector_exp(t), upto_second = 1.0 + t * (1.0 + 0.5 * t);
+    growth += a * e;
+    const double beyond_second = a * (e - upto_second);
+    remainder += beyond_second - a * (t * t * t * (1.0 / 6.0));
+    rx += beyond_second * sx;
+    ry += beyond_second * sy;
+    rz += beyond_second * sz;
   }
-  return {{xx, yy, zz, xy, xz, yz}, {xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz}, fourth, growth};
+  return {{xx, yy, zz, xy, xz, yz}, {xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz}, growth, remainder,
+          {rx, ry, rz}};
+}
+
+/// Half the width of an interval, rounded up to cover it from its rounded middle. Flat is flat: no slack is needed.
+double half_width(double lo, double hi, double middle) {
+  return lo == hi ? 0.0 : 0.5 * (hi - lo) * (1.0 + 1e-12) + 4e-16 * std::abs(middle);
 }
 
 /// Index of the third moment jkl in the order of LocalModel::third_.
@@ -91,14 +105,11 @@ constexpr int kSecond[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
     : decay_(decay), box_(box), tail_(atoms.tail), tail_slope_(atoms.tail_slope) {
   const std::size_t n = atoms.size();
-  double rho_sq = 0.0;
   for (int k = 0; k < 3; ++k) {
     middle_[k] = 0.5 * (box.lo[k] + box.hi[k]);
-    half_[k] = 0.5 * (box.hi[k] - box.lo[k]) * (1.0 + 1e-12) + 4e-16 * std::abs(middle_[k]);
-    rho_sq += half_[k] * half_[k];
+    half_[k] = half_width(box.lo[k], box.hi[k], middle_[k]);
   }
   if (n == 0) return;  // the atoms' bounds stay infinite: no slope is known
-  const double rho = std::sqrt(rho_sq) * (1.0 + 1e-12);
 
   double largest = -kInfinity, w_size = 1.0;
   atoms_lo_ = {kInfinity, kInfinity, kInfinity};
@@ -123,33 +134,39 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
   mean_offset_ = {first.ux * inverse, first.uy * inverse, first.uz * inverse};
   const Vec3 centre = {middle_[0] - mean_offset_[0], middle_[1] - mean_offset_[1], middle_[2] - mean_offset_[2]};
   const CentralMoments moments = central_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), weight.data(), n,
-                                                 decay, centre.data(), rho);
+                                                 decay, centre.data(), half_.data());
   for (int i = 0; i < 6; ++i) second_[i] = moments.second[i] * inverse;
   for (int i = 0; i < 10; ++i) third_[i] = moments.third[i] * inverse;
   relative_error_ = 2.0 * weight_error(2.0 * w_size + std::abs(largest) + kTruncation, n) + 1e-14;
-  fourth_ = moments.fourth * inverse * (1.0 + 1e-6);
   growth_ = std::max(1.0, moments.growth * inverse) * (1.0 + 1e-6);
-  // Beyond this the exponential was clamped, or the remainder says nothing anyway.
-  double widest = 0.0;
+  // Rounding of exp(z) - 1 - ... is absolute: a few ulp of exp(z).
+  const double lost = 16.0 * relative_error_ * growth_;
+  double farthest = 0.0;
   for (int k = 0; k < 3; ++k) {
-    widest = std::max(widest, std::max(std::abs(atoms_hi_[k] - centre[k]), std::abs(atoms_lo_[k] - centre[k])));
+    const double far_k = std::max(std::abs(atoms_hi_[k] - centre[k]), std::abs(atoms_lo_[k] - centre[k]));
+    farthest += far_k * half_[k];
+    slope_size_ += 2.0 * decay * far_k;
   }
-  usable_ = 2.0 * decay * widest * 1.74 * rho < 600.0 && relative_error_ < 1e-3;
+  remainder_ = moments.remainder * inverse * (1.0 + 1e-6) + lost;
+  for (int k = 0; k < 3; ++k) {
+    remainder_slope_[k] = moments.remainder_slope[k] * inverse * (1.0 + 1e-6) + lost * slope_size_;
+  }
+  // Beyond this the exponential was clamped.
+  usable_ = 2.0 * decay * farthest < 600.0 && relative_error_ < 1e-3;
 }
 
 LocalModel::View LocalModel::over(const Box& part) const { return View(*this, part); }
 LocalModel::View LocalModel::over_all() const { return View(*this, box_); }
 
 LocalModel::View::View(const LocalModel& model, const Box& part) : model_(model) {
-  double far_sq = 0.0;
+  double lambda = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double middle = 0.5 * (part.lo[k] + part.hi[k]);
     t_[k] = middle - model.middle_[k];
-    s_[k] = 0.5 * (part.hi[k] - part.lo[k]) * (1.0 + 1e-12) + 4e-16 * std::abs(middle);
-    const double far = std::abs(t_[k]) + s_[k];
-    far_sq += far * far;
+    s_[k] = half_width(part.lo[k], part.hi[k], middle);
+    if (model.half_[k] > 0.0) lambda = std::max(lambda, (std::abs(t_[k]) + s_[k]) / model.half_[k]);
   }
-  radius_ = std::sqrt(far_sq) * (1.0 + 1e-12);
+  lambda = std::min(1.0, lambda * (1.0 + 1e-12));
 
   for (int j = 0; j < 3; ++j) {
     double row = 0.0;
@@ -170,10 +187,11 @@ LocalModel::View::View(const LocalModel& model, const Box& part) : model_(model)
       for (int l = 0; l < 3; ++l) sum3_ += std::abs(model.third_[kThird[j][k][l]]) * s_[j] * s_[k] * s_[l];
     }
   }
-  const double r = radius_, e = model.relative_error_, y2 = model.second_[0] + model.second_[1] + model.second_[2];
-  const double y1 = std::sqrt(y2), y3 = std::sqrt(y2 * model.fourth_);  // E|y| and E|y|^3 (Cauchy-Schwarz)
-  remainder_ = r * r * r * r / 24.0 * model.fourth_ + 16.0 * e * (y1 * r + y2 * r * r + y3 * r * r * r);
-  remainder_slope_ = r * r * r / 6.0 * model.fourth_ + 16.0 * e * (y1 + y2 * r + y3 * r * r);
+  // Rounding errors of the moments are part of the remainders; they do not shrink with the part.
+  const double lost = 16.0 * model.relative_error_ * model.growth_;
+  const double cube = lambda * lambda * lambda;
+  remainder_ = cube * lambda * model.remainder_ + lost;
+  for (int k = 0; k < 3; ++k) remainder_slope_[k] = cube * model.remainder_slope_[k] + lost * model.slope_size_;
   middle_value_ = model.psi_ + (g_ > 0.0 ? std::log(g_) : 0.0);
   for (int k = 0; k < 3; ++k) middle_value_ -= model.decay_ * t_[k] * (2.0 * model.mean_offset_[k] + t_[k]);
 }
@@ -255,7 +273,7 @@ Range LocalModel::View::slope(int axis) const {
     }
   }
   const double cubic = d * s_[axis] * sum2_ + d / 3.0 * (std::abs(c) + s_[axis]) * sum3_;
-  const double rest = remainder_slope_ + 2.0 * d * (std::abs(c) + s_[axis]) * remainder_;
+  const double rest = remainder_slope_[axis] + 2.0 * d * (std::abs(c) + s_[axis]) * remainder_;
   const double rounding = 16.0 * model_.relative_error_ * 2.0 * d * (std::abs(c) + s_[axis]);
   const double spread = linear + 0.5 * quadratic + cubic + rest + rounding;
   Range range{q0 - spread - omitted * model_.growth_, q0 + spread + omitted * model_.growth_};

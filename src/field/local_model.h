@@ -18,9 +18,10 @@ struct Range {
 ///     psi(m + t) = log(phi / c) = psi(m) + log g(t) - 2 d v.t - d |t|^2,       g(t) = E[exp(y.t)].
 ///
 /// g has g(0) = 1, no linear term (E[y] = 0) and g >= 1 (Jensen), so it is well described by its moments of second and
-/// third order; what is left out is at most |t|^4 / 24 E[|y|^4 exp(|y| rho)], rho the radius of the box, and a
-/// derivative of it at most |t|^3 / 6 times the same. Exponents are relative to the mean, so that a radius of 1000 A
-/// makes no larger numbers than one of 1 A. Rounding and truncation are in the ranges.
+/// third order. With z_i = sup y_i.t over the box, what is left out is at most E[exp(z) - 1 - z - z^2/2 - z^3/6], and
+/// its derivative along axis k at most E[|y_k| (exp(z) - 1 - z - z^2/2)]; over a part of the box that lies within
+/// lambda times the box around m, lambda^4 and lambda^3 times that. Exponents are relative to the mean, so that a
+/// radius of 1000 A makes no larger numbers than one of 1 A. Rounding and truncation are in the ranges.
 class LocalModel {
  public:
   LocalModel() = default;
@@ -47,8 +48,10 @@ class LocalModel {
   Vec3 mean_offset_{};         ///< v (A)
   double second_[6]{};         ///< E[y y]: xx yy zz xy xz yz (1/A^2)
   double third_[10]{};         ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
-  double fourth_ = 0.0;        ///< E[|y|^4 exp(|y| rho)] (1/A^4)
-  double growth_ = 1.0;        ///< E[exp(|y| rho)] >= g anywhere in the box
+  double remainder_ = 0.0;     ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
+  Vec3 remainder_slope_{};     ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
+  double growth_ = 1.0;        ///< E[exp(z)] >= g anywhere in the box
+  double slope_size_ = 0.0;    ///< no |y| is larger (1/A)
   double relative_error_ = 0.0;
   double tail_ = 0.0;
   double tail_slope_ = 0.0;
@@ -75,12 +78,12 @@ class LocalModel::View {
   const LocalModel& model_;
   Vec3 t_{};            ///< middle of the part relative to the model's (A)
   Vec3 s_{};            ///< its half widths (A)
-  double radius_ = 0.0; ///< largest |t| in the part
   double g_ = 1.0;      ///< g and its derivatives at t_
   Vec3 g1_{};
   double g2_[3][3]{};
   double sum1_ = 0.0, sum2_ = 0.0, sum3_ = 0.0;  ///< sums |derivative| s^order over all index tuples
-  double remainder_ = 0.0, remainder_slope_ = 0.0;
+  double remainder_ = 0.0;
+  Vec3 remainder_slope_{};
   double middle_value_ = 0.0;
 };
 
