@@ -1,0 +1,208 @@
+// The PQR reader: from line to line, and what is left out on the way.
+//
+// Which fields of a record are its numbers is pqr_record.h; what the whole file gives away is pqr_checks.h.
+#include "atoms/pqr_checks.h"
+#include "atoms/pqr_record.h"
+#include "atoms/text_lines.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+struct FoundAtom {
+  Atom atom;
+  NumberFields numbers;
+};
+
+std::string count_of_atoms(std::size_t count) { return std::to_string(count) + (count == 1 ? " atom" : " atoms"); }
+
+/// Reads one text; made anew for each.
+class PqrParser {
+ public:
+  PqrParser(std::string_view text, std::string_view name) : name_(name), lines_(text) {
+    constexpr std::size_t kTypicalRecord = 70;
+    file_.atoms.reserve(text.size() / kTypicalRecord);
+  }
+
+  AtomFile parse();
+
+ private:
+  void read_line(std::string_view line);
+  void read_atom(std::string_view line, std::string_view rest);
+  FoundAtom find_atom(std::string_view line, std::string_view rest);
+  [[noreturn]] void fail_at_layout(std::string_view line) const;
+  void start_model();
+  void end_model();
+  void note_end();
+  void note_unknown(std::string_view content);
+  void warn_of_models();
+  void warn_of_end();
+  void warn_of_unknown();
+  LinePlace place() const { return {name_, lines_.number()}; }
+
+  std::string_view name_;
+  LineReader lines_;
+  FieldSplitter splitter_;
+  AtomFile file_;
+  LargeRadii large_radii_;
+  PdbCheck pdb_check_;
+  MissingFieldCheck missing_field_check_;
+
+  bool has_model_ = false;
+  std::optional<std::size_t> model_end_line_;  // of the first model
+  std::size_t atoms_in_other_models_ = 0;
+  std::optional<std::size_t> end_line_;  // of the first END behind an atom
+  std::size_t atoms_after_end_ = 0;
+  std::size_t unknown_lines_ = 0;
+  std::size_t first_unknown_line_ = 0;
+  std::string_view first_unknown_;
+};
+
+AtomFile PqrParser::parse() {
+  while (const auto line = lines_.next()) {
+    read_line(*line);
+  }
+  if (file_.atoms.empty()) {
+    throw InputError(std::string(name_) +
+                     ": expected ATOM or HETATM records, got no atoms; lines of four numbers, " +
+                     "x y z radius, are read from files named .xyzr");
+  }
+  missing_field_check_.require_complete(name_);
+  pdb_check_.require_pqr(file_.atoms.size(), name_);
+  large_radii_.warn(name_, file_);
+  warn_of_models();
+  warn_of_end();
+  warn_of_unknown();
+  return std::move(file_);
+}
+
+void PqrParser::read_line(std::string_view line) {
+  const std::string_view content = trim(line);
+  const Record record = classify_record(content);
+  switch (record.kind) {
+    case RecordKind::kAtom:
+      if (model_end_line_) {
+        ++atoms_in_other_models_;
+      } else {
+        read_atom(line, record.rest);
+      }
+      break;
+    case RecordKind::kModel:
+      start_model();
+      break;
+    case RecordKind::kEndOfModel:
+      end_model();
+      break;
+    case RecordKind::kEnd:
+      note_end();
+      break;
+    case RecordKind::kPassedOver:
+      break;
+    case RecordKind::kUnknown:
+      note_unknown(content);
+      break;
+  }
+}
+
+// A second MODEL ends the first as well as ENDMDL does, which some files lack.
+void PqrParser::start_model() {
+  if (has_model_) {
+    end_model();
+  }
+  has_model_ = true;
+}
+
+void PqrParser::end_model() {
+  if (!model_end_line_ && !file_.atoms.empty()) {
+    model_end_line_ = lines_.number();
+  }
+}
+
+void PqrParser::note_end() {
+  if (!end_line_ && !file_.atoms.empty()) {
+    end_line_ = lines_.number();
+  }
+}
+
+void PqrParser::read_atom(std::string_view line, std::string_view rest) {
+  const FoundAtom found = find_atom(line, rest);
+  require_in_range(found.atom, found.numbers.fields, place());
+  missing_field_check_.add(found.numbers, lines_.number());
+  pdb_check_.add(found.atom, found.numbers.fields, line, lines_.number());
+  large_radii_.add(found.atom.radius, lines_.number());
+  atoms_after_end_ += end_line_ ? 1 : 0;
+  file_.atoms.push_back(found.atom);
+}
+
+FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {
+  const auto by_fields = find_by_fields(splitter_.split(rest));
+  if (by_fields) {
+    if (const auto atom = parse_atom(by_fields->fields)) {
+      return {*atom, *by_fields};
+    }
+  }
+  const auto by_columns = find_by_columns(line, splitter_);
+  if (by_columns) {
+    if (const auto atom = parse_atom(by_columns->fields)) {
+      return {*atom, *by_columns};
+    }
+  }
+  if (by_fields) {
+    fail_at_number(by_fields->fields, place());
+  }
+  if (by_columns && !has_pdb_columns(line)) {
+    fail_at_number(by_columns->fields, place());
+  }
+  fail_at_layout(line);
+}
+
+void PqrParser::fail_at_layout(std::string_view line) const {
+  const char* remedy = has_pdb_columns(line) ? "; is it a PDB file? pdb2pqr gives it charges and radii"
+                       : lines_.is_cut()     ? "; the file ends here, is it cut off?"
+                                             : "";
+  fail_at(place(), "serial, atom, residue, [chain,] residue number, x, y, z, charge, radius in an atom record",
+          trim(line), remedy);
+}
+
+void PqrParser::note_unknown(std::string_view content) {
+  if (content[0] == '<') {
+    fail_at(place(), "PQR records", content, "; PQR-XML is not supported, convert it to PQR");
+  }
+  if (content.starts_with("data_") || content.starts_with("loop_")) {
+    fail_at(place(), "PQR records", content, "; mmCIF is not supported, pdb2pqr makes PQR of it");
+  }
+  if (unknown_lines_++ == 0) {
+    first_unknown_line_ = lines_.number();
+    first_unknown_ = content;
+  }
+}
+
+void PqrParser::warn_of_models() {
+  if (atoms_in_other_models_ > 0) {
+    file_.warnings.push_back(to_string({name_, *model_end_line_}) + ": the first model ends here; left out " +
+                             count_of_atoms(atoms_in_other_models_) + " of other models");
+  }
+}
+
+void PqrParser::warn_of_end() {
+  if (atoms_after_end_ > 0) {
+    file_.warnings.push_back(to_string({name_, *end_line_}) + ": END is followed by " +
+                             count_of_atoms(atoms_after_end_) + " that are read too");
+  }
+}
+
+void PqrParser::warn_of_unknown() {
+  if (unknown_lines_ > 0) {
+    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " +
+                             std::to_string(unknown_lines_) + (unknown_lines_ == 1 ? " line" : " lines") +
+                             " of no known record, the first " + quoted(first_unknown_));
+  }
+}
+
+}  // namespace
+
+AtomFile parse_pqr(std::string_view text, std::string_view name) {
+  return PqrParser(require_text(text, name), name).parse();
+}
+
+}  // namespace gaussmesh
