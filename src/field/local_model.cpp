@@ -109,7 +109,8 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
     middle_[k] = 0.5 * (box.lo[k] + box.hi[k]);
     half_[k] = half_width(box.lo[k], box.hi[k], middle_[k]);
   }
-  if (n == 0) return;  // the atoms' bounds stay infinite: no slope is known
+  if (n == 0) return;
+  empty_ = false;
 
   double largest = -kInfinity, w_size = 1.0;
   atoms_lo_ = {kInfinity, kInfinity, kInfinity};
@@ -209,6 +210,7 @@ double LocalModel::View::middle_curvature(int axis) const {
 
 Range LocalModel::View::value() const {
   const double d = model_.decay_;
+  if (model_.empty_) return {-kInfinity, std::log(model_.tail_) + 1e-15};
   if (!model_.usable_) return {-kInfinity, kInfinity};
   // Jensen: g >= 1; and g <= growth_. The rest is a quadratic polynomial, bounded axis by axis.
   double plain_lo = model_.psi_, plain_hi = model_.psi_ + std::log(model_.growth_);
@@ -250,7 +252,7 @@ Range LocalModel::View::value() const {
 
 Range LocalModel::View::slope(int axis) const {
   const double d = model_.decay_;
-  if (model_.tail_ > 0.01) return {-kInfinity, kInfinity};
+  if (model_.empty_ || model_.tail_ > 0.01) return {-kInfinity, kInfinity};
   // Atoms left out: |phi_k / c| changes by tail_slope_, and phi of the others is at least c (1 - tail_) where phi = c.
   const double omitted = 1.02 * model_.tail_slope_;
   // All atoms on one side: dpsi/dx = -2 d E[x - x_i].

@@ -43,7 +43,8 @@ class LocalModel {
   Box box_;
   Vec3 middle_{};
   Vec3 half_{};
-  bool usable_ = false;        ///< false: only the crude bounds say anything
+  bool empty_ = true;          ///< no atom counts: only the tail is there
+  bool usable_ = false;        ///< false: the moments say nothing, the box is too large for the atoms
   double psi_ = 0.0;           ///< log(phi / c) at the middle
   Vec3 mean_offset_{};         ///< v (A)
   double second_[6]{};         ///< E[y y]: xx yy zz xy xz yz (1/A^2)

@@ -11,19 +11,39 @@ Vec3 difference(const CoordPoint& p, const CoordPoint& q) {
 
 double dot(const Vec3& u, const Vec3& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 
+/// A triangle's sides, normal and the field's normal at its corners.
+struct Geometry {
+  Geometry(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+    const Vec3 u = difference(q.position, p.position), v = difference(r.position, p.position);
+    const Vec3 w = difference(r.position, q.position);
+    const Vec3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    Vec3 field{};
+    for (int k = 0; k < 3; ++k) field[k] = double(p.normal[k]) + double(q.normal[k]) + double(r.normal[k]);
+    doubled_area = std::sqrt(dot(n, n));
+    edges_sq = dot(u, u) + dot(v, v) + dot(w, w);
+    cosine = dot(n, field) / (doubled_area * std::sqrt(dot(field, field)) + 1e-300);
+  }
+  double doubled_area = 0.0;
+  double edges_sq = 0.0;
+  double cosine = 0.0;
+};
+
 }  // namespace
 
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  return Geometry(p, q, r).cosine;
+}
+
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
+                     const std::array<float, 3>& direction) {
+  return Geometry({p.position, direction, 0}, {q.position, direction, 0}, {r.position, direction, 0}).cosine;
+}
+
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
-  const Vec3 u = difference(q.position, p.position), v = difference(r.position, p.position);
-  const Vec3 w = difference(r.position, q.position);
-  const Vec3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const double doubled_area = std::sqrt(dot(n, n));
-  const double edges_sq = dot(u, u) + dot(v, v) + dot(w, w);
-  if (doubled_area == 0.0) return 10.0 * kTurnedTriangle;
-  Vec3 field{};
-  for (int k = 0; k < 3; ++k) field[k] = double(p.normal[k]) + double(q.normal[k]) + double(r.normal[k]);
-  const double cosine = dot(n, field) / (doubled_area * std::sqrt(dot(field, field)) + 1e-300);
-  const double quality = 2.0 * std::sqrt(3.0) * doubled_area / edges_sq;
+  const Geometry triangle(p, q, r);
+  if (triangle.doubled_area == 0.0) return 10.0 * kTurnedTriangle;
+  const double cosine = triangle.cosine;
+  const double quality = 2.0 * std::sqrt(3.0) * triangle.doubled_area / triangle.edges_sq;
   // Within 60 degrees of the field's normal shape decides; beyond, the normal.
   if (cosine >= 0.5) return 1.0 - quality + 2.0 * (1.0 - cosine);
   constexpr double kCosineOfTurned = 0.087;

@@ -11,6 +11,13 @@ inline constexpr double kPoorTriangle = 10.0;
 /// From here on it says that it is turned more than 85 degrees.
 inline constexpr double kTurnedTriangle = 100.0;
 
+/// Cosine of the angle between the normal of the triangle p q r and the mean of the field's normals at its corners.
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
+
+/// The same with a given direction.
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
+                     const std::array<float, 3>& direction);
+
 /// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
 /// squared edges, and much more for a triangle whose normal is far from the field's at its corners.
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);

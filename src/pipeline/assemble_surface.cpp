@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "field/point_value.h"
 #include "gaussmesh/error.h"
+#include "patch/triangle_shape.h"
 #include "pipeline/loop_collector.h"
 
 namespace gaussmesh {
@@ -85,14 +87,20 @@ class BrickTracer {
   std::vector<FaceRoot> roots_;
 };
 
+/// Cells of this level and finer are not split any more for a triangle that is turned against the field: the promise
+/// is one of quality, not of topology, and near a singular point it cannot be kept at any size.
+constexpr int kFinestForNormals = 5;
+
 /// Gathers the loops of cells and triangulates them. Keeps buffers: one for each thread.
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
               const FoldCellMap& folds, const std::vector<SurfacePoint>& points)
-      : lattice_(lattice),
+      : field_(field),
+        lattice_(lattice),
         store_(store),
         folds_(folds),
+        points_(points),
         collector_(lattice, store, split, points),
         triangulator_(field),
         fold_triangulator_(field) {}
@@ -119,7 +127,7 @@ class CellPatcher {
     const Patch& patch =
         sign != 0 ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), axis, sign, loops)
                   : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
-    if (!patch.complete) {
+    if (!patch.complete || (key.level < kFinestForNormals && is_turned(patch, key))) {
       result.failed.push_back(key);
       return;
     }
@@ -132,9 +140,34 @@ class CellPatcher {
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
 
+  const SurfacePoint& point(std::uint32_t vertex, const Patch& patch) const {
+    return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : points_[vertex];
+  }
+
+  /// Whether a triangle is turned against the field at its centroid: the cell is too coarse for the surface.
+  bool is_turned(const Patch& patch, const CellKey& key) {
+    constexpr double kSuspect = 0.35;  // cosine with the corners' normals above which the centroid is not looked at
+    bool atoms_loaded = false;
+    for (const Triangle& t : patch.triangles) {
+      const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
+      if (normal_cosine(p, q, r) > kSuspect) continue;
+      if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
+      atoms_loaded = true;
+      const Vec3 a = to_angstrom(p.position), b = to_angstrom(q.position), c = to_angstrom(r.position);
+      Vec3 centroid;
+      for (int k = 0; k < 3; ++k) centroid[k] = (a[k] + b[k] + c[k]) / 3.0;
+      const auto normal = outward_normal(evaluate(atoms_, field_.decay(), centroid).gradient);
+      if (normal_cosine(p, q, r, normal) <= 0.0) return true;
+    }
+    return false;
+  }
+
+  const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
   const FoldCellMap& folds_;
+  const std::vector<SurfacePoint>& points_;
+  NearAtoms atoms_;
   LoopCollector collector_;
   PatchTriangulator triangulator_;
   FoldTriangulator fold_triangulator_;
