@@ -28,7 +28,7 @@ struct Box {
 };
 
 /// How often a cell of the asked-for spacing may be halved.
-inline constexpr int kMaxLevel = 12;
+inline constexpr int kMaxLevel = 16;
 inline constexpr std::int64_t kFinePerCell = std::int64_t{1} << kMaxLevel;
 
 /// Position on the finest lattice: cells of level 0 begin at multiples of kFinePerCell.

@@ -35,6 +35,9 @@ class NearAtoms {
 /// Log-weight, relative to c, below which an atom is left out: e^-23 = 1e-10.
 inline constexpr double kTruncation = 23.0;
 
+/// The same where little things matter, in small cells near singular places: e^-40 = 4e-18.
+inline constexpr double kFineTruncation = 40.0;
+
 /// Bounds of phi / c over a box from the atoms' distances alone: good for boxes larger than an atom.
 struct CrudeBounds {
   double upper = 0.0;      ///< phi / c is at most this

@@ -19,7 +19,7 @@ enum class Side : std::int8_t { kOutside, kInside, kUnknown };
 Side side_of(const PointValue& value, const NearAtoms& atoms);
 
 /// Evaluates the sum over `atoms` directly; the point lies in the box that they were collected for.
-/// Cost: one exponential per atom.
+/// Cost: one exponential per atom, some 100 ns near a protein.
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& point);
 
 /// Relative rounding error of a sum of n weights exp(e), |e| assembled from terms up to `exponent_size`.

@@ -1,5 +1,6 @@
 #include "patch/triangle_shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gaussmesh {
@@ -30,13 +31,14 @@ struct Geometry {
 
 }  // namespace
 
-double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
-  return Geometry(p, q, r).cosine;
-}
-
 double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
                      const std::array<float, 3>& direction) {
   return Geometry({p.position, direction, 0}, {q.position, direction, 0}, {r.position, direction, 0}).cosine;
+}
+
+double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  return std::min({normal_cosine(p, q, r, p.normal), normal_cosine(p, q, r, q.normal),
+                   normal_cosine(p, q, r, r.normal)});
 }
 
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {

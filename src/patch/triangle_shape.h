@@ -11,12 +11,12 @@ inline constexpr double kPoorTriangle = 10.0;
 /// From here on it says that it is turned more than 85 degrees.
 inline constexpr double kTurnedTriangle = 100.0;
 
-/// Cosine of the angle between the normal of the triangle p q r and the mean of the field's normals at its corners.
-double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
-
-/// The same with a given direction.
+/// Cosine of the angle between the normal of the triangle p q r and a direction.
 double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
                      const std::array<float, 3>& direction);
+
+/// The least of these over the field's normals at the three corners.
+double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
 
 /// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
 /// squared edges, and much more for a triangle whose normal is far from the field's at its corners.

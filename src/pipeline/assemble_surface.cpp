@@ -146,11 +146,11 @@ class CellPatcher {
 
   /// Whether a triangle is turned against the field at its centroid: the cell is too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
-    constexpr double kSuspect = 0.35;  // cosine with the corners' normals above which the centroid is not looked at
+    constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
     bool atoms_loaded = false;
     for (const Triangle& t : patch.triangles) {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
-      if (normal_cosine(p, q, r) > kSuspect) continue;
+      if (least_normal_cosine(p, q, r) > kSuspect) continue;
       if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
       atoms_loaded = true;
       const Vec3 a = to_angstrom(p.position), b = to_angstrom(q.position), c = to_angstrom(r.position);

@@ -102,7 +102,7 @@ std::vector<SurfacePoint> SplitLattice::lattice_points() const {
 void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const {
   branch.split.push_back(key);
   NearAtoms atoms;
-  field_.collect_near(cell_box(lattice_, key), atoms);
+  field_.collect_near(cell_box(lattice_, key), atoms, kFineTruncation);
   for (int c = 0; c < 8; ++c) {
     const CellKey child = child_cell(key, c);
     const Box box = cell_box(lattice_, child);
@@ -153,7 +153,7 @@ void SplitLattice::find_edge_roots(int threads) {
     const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
     const Box box = lattice_box(lattice_, edge.lo, end);
     NearAtoms atoms;
-    field_.collect_near(box, atoms);
+    field_.collect_near(box, atoms, kFineTruncation);
     EdgeRootFinder finder(field_, lattice_);
     const auto roots = finder.find(atoms, LocalModel(atoms, field_.decay(), box), edge.axis, lattice_.point(edge.lo),
                                    lattice_.plane(edge.axis, end[edge.axis]));

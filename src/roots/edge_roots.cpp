@@ -49,25 +49,33 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess, double curvature) {
+  // Second derivatives of log phi are 4 d^2 times a variance of atom positions, less 2 d.
+  const double steepest = 2.0 * decay + 4.0 * decay * decay;
+  curvature = std::clamp(std::isfinite(curvature) ? curvature : 0.0, -steepest, 4.0 * steepest);
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
+  double width = b - a;
   Vec3 point = start;
   LineRoot root;
-  for (int iteration = 0; iteration < 100; ++iteration) {
+  for (int iteration = 0; iteration < 200; ++iteration) {
     point[axis] = x;
     const PointValue value = evaluate(atoms, decay, point);
+    const double slope = value.gradient[axis];
     root = {x, value.gradient};
     ((value.value > 0.0) == inside_a ? a : b) = x;
-    double next = parabola_zero(x, value.value, value.gradient[axis], curvature);
-    if (!(next >= a && next <= b)) next = x - value.value / value.gradient[axis];
+    double next = parabola_zero(x, value.value, slope, curvature);
+    if (!(next >= a && next <= b)) next = x - value.value / slope;
     if (!(next >= a && next <= b)) next = 0.5 * (a + b);
     const double step = std::abs(next - x);
     root.position = next;
-    // The parabola leaves an error of third order in the step; its factor is about d^(3/2).
-    if (step < 1e-5 && step * step * step * (1.0 + decay * decay) < 0.1 * kRootTolerance) return root;
-    if (b - a < kRootTolerance) return root;
+    // The parabola misses by the error of the curvature times half the step squared, over the slope.
+    if (step * step * steepest < kRootTolerance * std::abs(slope) || b - a < kRootTolerance) return root;
+    if (iteration % 4 == 3) {  // four steps that have not even halved the bracket are no progress
+      if (b - a > 0.5 * width) next = 0.5 * (a + b);
+      width = b - a;
+    }
     x = next;
   }
-  throw InternalError("a bracketed root was not found in 100 steps");
+  throw InternalError("a bracketed root was not found in 200 steps");
 }
 
 Vec3 EdgeRootFinder::at(double x) const {

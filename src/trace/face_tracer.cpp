@@ -36,7 +36,7 @@ PlanePoint FaceTracer::plane(int point) const {
 
 void FaceTracer::load_atoms() {
   if (atoms_loaded_) return;
-  field_.collect_near({to_angstrom(face_.lo), to_angstrom(face_.hi)}, atoms_);
+  field_.collect_near({to_angstrom(face_.lo), to_angstrom(face_.hi)}, atoms_, kFineTruncation);
   atoms_loaded_ = true;
 }
 

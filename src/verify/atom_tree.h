@@ -1,0 +1,80 @@
+// A tree of boxes over atoms, to find those that count at a place in a sum of Gaussians.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "gaussmesh/atom.h"
+#include "gaussmesh/triangle_mesh.h"
+#include "verify/box.h"
+
+namespace gaussmesh {
+
+/// Atoms sorted along a Morton curve, and boxes over groups of them, over groups of groups, and so on.
+///
+/// An atom's exponent at x is r^2 - |x - x_i|^2: its share of phi is exp(decay * exponent). Large and small radii
+/// may be mixed at will. Memory is in proportion to the atoms, wherever they lie. Reading it is thread-safe.
+class AtomTree {
+ public:
+  /// @param atoms  at least one, at finite places
+  explicit AtomTree(const std::vector<Atom>& atoms);
+
+  std::size_t atom_count() const { return atoms_.size(); }
+
+  /// Calls visit(atom) for every atom whose exponent is, at some point of `place`, less than `range` below the
+  /// largest exponent at that point; and for some others.
+  template <class Visit>
+  void for_each_near(const Box& place, double range, const Visit& visit) const {
+    visit_below(levels_.size(), 0, place, least_largest_exponent(place) - range, visit);
+  }
+
+ private:
+  /// A box round the centres, and the largest radius.
+  struct Group {
+    Box box;
+    double radius_sq = 0.0;
+
+    void include(const Group& group) {
+      box.include(group.box);
+      radius_sq = std::max(radius_sq, group.radius_sq);
+    }
+  };
+
+  /// The atom of the largest exponent so far.
+  struct Best {
+    double exponent = -std::numeric_limits<double>::infinity();
+    std::size_t atom = 0;
+  };
+
+  static constexpr std::size_t kFanOut = 4;  // atoms in a group of the lowest level, groups in one of the next
+
+  static Group group_of(const Atom& atom);
+  static double largest_exponent(const Group& group, const Box& place);
+  static std::vector<Group> group(const std::vector<Group>& members);
+
+  Best best_below(std::size_t level, std::size_t index, const Box& place, Best best) const;
+  double least_largest_exponent(const Box& place) const;
+
+  /// Level 0 is the atoms themselves, level k is levels_[k - 1].
+  Group group_at(std::size_t level, std::size_t index) const {
+    return level == 0 ? group_of(atoms_[index]) : levels_[level - 1][index];
+  }
+
+  std::size_t size_of(std::size_t level) const { return level == 0 ? atoms_.size() : levels_[level - 1].size(); }
+
+  template <class Visit>
+  void visit_below(std::size_t level, std::size_t index, const Box& place, double least, const Visit& visit) const {
+    if (largest_exponent(group_at(level, index), place) < least) return;
+    if (level == 0) {
+      visit(atoms_[index]);
+      return;
+    }
+    const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
+    for (std::size_t child = index * kFanOut; child < end; ++child) visit_below(level - 1, child, place, least, visit);
+  }
+
+  std::vector<Atom> atoms_;                 // along the curve
+  std::vector<std::vector<Group>> levels_;  // the last has one group, of all
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,46 @@
+// Axis-parallel boxes: the cheap first question before any exact one.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "gaussmesh/triangle_mesh.h"
+
+namespace gaussmesh {
+
+/// All points with low <= x <= high; empty as made, until something is included.
+struct Box {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+             -std::numeric_limits<double>::infinity()};
+
+  void include(const Point& point) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  }
+
+  void include(const Box& box) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], box.low[k]);
+      high[k] = std::max(high[k], box.high[k]);
+    }
+  }
+};
+
+/// Whether two boxes have a point in common; touching counts. Without branches: most callers cannot predict it.
+inline bool boxes_meet(const Box& a, const Box& b) {
+  bool meet = true;
+  for (int k = 0; k < 3; ++k) meet &= (a.low[k] <= b.high[k]) & (b.low[k] <= a.high[k]);
+  return meet;
+}
+
+inline Box box_of(const TriangleMesh& mesh, const Triangle& triangle) {
+  Box box;
+  for (const std::uint32_t vertex : triangle) box.include(mesh.vertices[vertex]);
+  return box;
+}
+
+}  // namespace gaussmesh

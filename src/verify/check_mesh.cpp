@@ -1,0 +1,199 @@
+// The judge's order of business: parts that cannot be judged are counted and set aside, then everything else is
+// asked of the rest.
+
+#include "gaussmesh/check_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "gaussmesh/error.h"
+#include "verify/component_geometry.h"
+#include "verify/edge_topology.h"
+#include "verify/exact_orientation.h"
+#include "verify/intersections.h"
+#include "verify/shape.h"
+#include "verify/triangle_tree.h"
+
+namespace gaussmesh {
+namespace {
+
+constexpr std::size_t kMostParts = std::size_t{1} << 31;  // triangles or vertices: 32-bit numbers, with room
+
+void require_countable(std::size_t count, const char* what) {
+  if (count > kMostParts)
+    throw OptionError("mesh: expected at most " + std::to_string(kMostParts) + " " + what + ", got '" +
+                      std::to_string(count) + "'");
+}
+
+bool is_exact_point(const Point& p) {
+  return is_exact_coordinate(p[0]) && is_exact_coordinate(p[1]) && is_exact_coordinate(p[2]);
+}
+
+/// Why a triangle cannot be judged.
+enum class TriangleFault { kNone, kBadIndex, kRepeatedVertex, kBadCoordinate };
+
+TriangleFault fault_of(const TriangleMesh& mesh, const Triangle& triangle) {
+  for (const std::uint32_t vertex : triangle)
+    if (vertex >= mesh.vertices.size()) return TriangleFault::kBadIndex;
+  const auto& [a, b, c] = triangle;
+  if (a == b || b == c || c == a) return TriangleFault::kRepeatedVertex;
+  for (const std::uint32_t vertex : triangle)
+    if (!is_exact_point(mesh.vertices[vertex])) return TriangleFault::kBadCoordinate;
+  return TriangleFault::kNone;
+}
+
+/// The triangles that can be judged: their numbers, and how many others there are of two faults.
+struct UsableTriangles {
+  std::vector<std::uint32_t> numbers;
+  std::size_t bad_indices = 0;
+  std::size_t repeated_vertices = 0;
+};
+
+UsableTriangles find_usable_triangles(const TriangleMesh& mesh) {
+  UsableTriangles result;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const TriangleFault fault = fault_of(mesh, mesh.triangles[t]);
+    if (fault == TriangleFault::kNone) result.numbers.push_back(static_cast<std::uint32_t>(t));
+    result.bad_indices += fault == TriangleFault::kBadIndex;
+    result.repeated_vertices += fault == TriangleFault::kRepeatedVertex;
+  }
+  return result;
+}
+
+bool all_are_usable(const TriangleMesh& mesh) {
+  std::size_t faults = 0;
+#pragma omp parallel for reduction(+ : faults)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    faults += fault_of(mesh, mesh.triangles[t]) != TriangleFault::kNone;
+  return faults == 0;
+}
+
+std::size_t count_zero_areas(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+#pragma omp parallel for reduction(+ : count)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    count += are_collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  }
+  return count;
+}
+
+std::size_t count_bad_coordinates(const std::vector<Point>& points) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const Point& p) { return !is_exact_point(p); }));
+}
+
+/// Equal points have equal hashes, 0 and -0 too. The multiplier is that of the SplitMix64 generator's first step.
+std::uint64_t hash_of(const Point& point) {
+  std::uint64_t hash = 0;
+  for (const double x : point) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0xBF58476D1CE4E5B9u;
+    hash ^= hash >> 31;
+  }
+  return hash;
+}
+
+/// Vertices at the very place of another before them, by a hash table with open addresses.
+std::size_t count_duplicates(const std::vector<Point>& points) {
+  constexpr std::uint32_t kFree = 0;
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * points.size() + 1), kFree);  // else a vertex number plus 1
+  std::size_t duplicates = 0;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!is_exact_point(points[i])) continue;
+    std::size_t slot = hash_of(points[i]) & (table.size() - 1);
+    while (table[slot] != kFree && points[table[slot] - 1] != points[i]) slot = (slot + 1) & (table.size() - 1);
+    if (table[slot] == kFree) {
+      table[slot] = i + 1;
+    } else {
+      ++duplicates;
+    }
+  }
+  return duplicates;
+}
+
+MeshComponent describe(const ComponentTopology& topology, const ComponentGeometry& geometry) {
+  MeshComponent component;
+  component.triangles = topology.triangles;
+  component.vertices = topology.vertices;
+  component.chi = topology.chi;
+  component.genus = (2 - topology.chi) / 2;
+  component.area = geometry.area;
+  component.volume = geometry.volume;
+  component.closed = topology.closed;
+  component.depth = geometry.depth;
+  const int wanted_sign = geometry.depth % 2 == 0 ? 1 : -1;
+  component.inverted = topology.closed && geometry.volume_sign != wanted_sign;
+  return component;
+}
+
+void add_edge_topology(const EdgeTopology& topology, MeshCheck& check) {
+  check.boundary_edges = topology.boundary_edges;
+  check.nonmanifold_edges = topology.nonmanifold_edges;
+  check.misoriented_edges = topology.misoriented_edges;
+  check.nonmanifold_vertices = topology.nonmanifold_vertices;
+  check.isolated_vertices = topology.isolated_vertices;
+}
+
+void add_components(const EdgeTopology& topology, const std::vector<ComponentGeometry>& geometry, MeshCheck& check) {
+  for (std::size_t c = 0; c < geometry.size(); ++c) {
+    check.components.push_back(describe(topology.components[c], geometry[c]));
+    check.chi += check.components[c].chi;
+    check.area += check.components[c].area;
+    check.volume += check.components[c].volume;
+    check.inverted_components += check.components[c].inverted;
+  }
+  std::stable_sort(check.components.begin(), check.components.end(),
+                   [](const MeshComponent& a, const MeshComponent& b) { return a.area > b.area; });
+}
+
+/// Judges a mesh in which every triangle has three different vertices, all there, with exact coordinates.
+MeshCheck check_usable(const TriangleMesh& mesh) {
+  MeshCheck check = measure_shape(mesh);
+  check.degenerate_triangles = count_zero_areas(mesh);
+  const EdgeTopology topology = find_edge_topology(mesh);
+  add_edge_topology(topology, check);
+  const TriangleTree tree(mesh);
+  add_components(topology, measure_components(mesh, topology, tree), check);
+  Intersections intersections = find_intersections(mesh, tree);
+  check.intersecting_pairs = intersections.pairs;
+  check.intersecting_examples = std::move(intersections.examples);
+  return check;
+}
+
+/// Judges what can be judged of a mesh in which some triangles cannot.
+MeshCheck check_usable_part(const TriangleMesh& mesh) {
+  const UsableTriangles usable = find_usable_triangles(mesh);
+  TriangleMesh part{mesh.vertices, {}};
+  for (const std::uint32_t number : usable.numbers) part.triangles.push_back(mesh.triangles[number]);
+  MeshCheck check = check_usable(part);
+  check.bad_indices = usable.bad_indices;
+  check.degenerate_triangles += usable.repeated_vertices;
+  for (auto& [a, b] : check.intersecting_examples) {
+    a = usable.numbers[a];
+    b = usable.numbers[b];
+  }
+  return check;
+}
+
+}  // namespace
+
+MeshCheck check_mesh(const TriangleMesh& mesh) {
+  require_countable(mesh.triangles.size(), "triangles");
+  require_countable(mesh.vertices.size(), "vertices");
+  MeshCheck check = all_are_usable(mesh) ? check_usable(mesh) : check_usable_part(mesh);
+  check.vertices = mesh.vertices.size();
+  check.triangles = mesh.triangles.size();
+  check.bad_coordinates = count_bad_coordinates(mesh.vertices);
+  check.duplicate_vertices = count_duplicates(mesh.vertices);
+  return check;
+}
+
+bool MeshCheck::fit_for_solver() const {
+  const std::size_t defects = bad_indices + bad_coordinates + boundary_edges + nonmanifold_edges + misoriented_edges +
+                              nonmanifold_vertices + isolated_vertices + duplicate_vertices + degenerate_triangles +
+                              intersecting_pairs + inverted_components;
+  return triangles > 0 && defects == 0;
+}
+
+}  // namespace gaussmesh

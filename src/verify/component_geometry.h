@@ -1,0 +1,37 @@
+// What the components of a mesh are in space: how large, which way turned, and which lie inside which.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gaussmesh/triangle_mesh.h"
+#include "verify/edge_topology.h"
+#include "verify/triangle_tree.h"
+
+namespace gaussmesh {
+
+/// One component of EdgeTopology::components.
+struct ComponentGeometry {
+  double area = 0.0;       ///< Eq. (3) of [LCL15]
+  double volume = 0.0;     ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
+  int volume_sign = 0;     ///< exact, of the sum without rounding
+  std::size_t depth = 0;   ///< closed components that it lies inside of; 0 for one that is not closed itself
+};
+
+/// Measures every component.
+///
+/// The volume is summed from a vertex of the component, so that its error grows with the component's size, not
+/// with where it lies. The depth is counted along a ray from one of the vertices, exactly, ties broken by moving
+/// the ray an infinitesimal step; where components cross or touch each other it says where that vertex is.
+///
+/// @param mesh      every triangle has three different vertices, all there, with exact coordinates
+///                  (is_exact_coordinate)
+/// @param topology  of this mesh
+/// @param tree      of this mesh
+///
+/// Cost: O(n), and for each closed component the triangles near and above its ray. The answer does not depend on
+/// the number of threads.
+std::vector<ComponentGeometry> measure_components(const TriangleMesh& mesh, const EdgeTopology& topology,
+                                                  const TriangleTree& tree);
+
+}  // namespace gaussmesh

@@ -1,0 +1,37 @@
+// What the vertex numbers alone tell: edges, fans, components, Euler numbers. No coordinate is looked at.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gaussmesh/triangle_mesh.h"
+
+namespace gaussmesh {
+
+/// Triangles connected through shared edges.
+struct ComponentTopology {
+  std::size_t triangles = 0;
+  std::size_t vertices = 0;  ///< a vertex where two components touch counts in both
+  std::int64_t chi = 0;      ///< V - E + F
+  bool closed = true;        ///< every edge is in two triangles, which run through it in opposite directions
+};
+
+/// Conditions (a) and (b) of a manifold mesh in [LCL15], and the components.
+struct EdgeTopology {
+  std::size_t boundary_edges = 0;
+  std::size_t nonmanifold_edges = 0;
+  std::size_t misoriented_edges = 0;
+  std::size_t nonmanifold_vertices = 0;
+  std::size_t isolated_vertices = 0;
+  std::vector<std::uint32_t> component_of;    ///< of each triangle: its place in `components`
+  std::vector<ComponentTopology> components;  ///< in the order of their first triangles
+};
+
+/// Counts the defects named in MeshCheck, and numbers the components.
+///
+/// @param mesh  every triangle has three different vertices, all there
+///
+/// Cost: O(n log(largest valence)) time, 20 bytes a triangle. The answer does not depend on the number of threads.
+EdgeTopology find_edge_topology(const TriangleMesh& mesh);
+
+}  // namespace gaussmesh

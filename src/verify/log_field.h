@@ -1,0 +1,40 @@
+// log phi and its gradient, evaluated directly: the judge's own view of the Gaussian surface.
+#pragma once
+
+#include <vector>
+
+#include "gaussmesh/triangle_mesh.h"
+#include "verify/atom_tree.h"
+#include "verify/box.h"
+
+namespace gaussmesh {
+
+/// log phi at a point.
+struct LogValue {
+  double value = 0.0;
+  Point gradient{};  ///< of log phi, 1/A
+};
+
+/// Evaluates log phi, phi(x) = sum_i exp(-decay (|x - x_i|^2 - r_i^2)), point after point near each other.
+///
+/// The atoms that count round the last point are kept, so that the tree is asked again only once points have moved
+/// on. Those left out have less than 1e-13 of phi, all together. Nothing overflows whatever the radii, since the
+/// largest exponent is taken out of the sum. One for each thread; the tree must outlive it.
+class LogField {
+ public:
+  LogField(const AtomTree& tree, double decay);
+
+  LogValue at(const Point& x);
+
+ private:
+  void gather_round(const Point& x);
+
+  const AtomTree& tree_;
+  double decay_;
+  double range_;  // exponents that far below the largest do not count
+  Box place_;                      // where `near_` serves
+  std::vector<Atom> near_;         // the atoms that count there
+  std::vector<double> exponents_;  // theirs, at the point in hand
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,60 @@
+// Putting points into an order in which neighbours in the list are neighbours in space.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "verify/box.h"
+
+namespace gaussmesh {
+
+/// A point's number, and the cell that it lies in along the Morton (Z) curve.
+struct MortonKey {
+  std::uint32_t cell = 0;
+  std::uint32_t number = 0;
+};
+
+/// The cell of `point` among 1024^3 cubes that `box` is cut into.
+std::uint32_t morton_cell(const Box& box, const Point& point);
+
+/// Sorts by cell; equal cells keep their order.
+void sort_by_cell(std::vector<MortonKey>& keys);
+
+/// Sorts `keys` along the Morton curve of their own box, and those that share a cell by the curve inside it, and
+/// so on: two atoms 10^6 A apart are each sorted as finely as one alone.
+///
+/// @param point_of  the point of a number; called several times for each
+/// Cost: O(n) for each level; more than one is needed only where many points crowd in one cell.
+template <class PointOf>
+void sort_along_morton_curve(std::vector<MortonKey>& keys, const PointOf& point_of) {
+  constexpr std::size_t kEnough = 32;  // a run this short is near enough together
+  Box box;
+  for (const MortonKey& key : keys) box.include(point_of(key.number));
+  if (box.low == box.high) return;
+  for (MortonKey& key : keys) key.cell = morton_cell(box, point_of(key.number));
+  sort_by_cell(keys);
+  for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+    while (end < keys.size() && keys[end].cell == keys[begin].cell) ++end;
+    if (end - begin <= kEnough) continue;
+    std::vector<MortonKey> run(keys.begin() + begin, keys.begin() + end);
+    sort_along_morton_curve(run, point_of);
+    std::copy(run.begin(), run.end(), keys.begin() + begin);
+  }
+}
+
+/// The numbers 0 .. count - 1 sorted along the Morton curve of their points; the same for any number of threads.
+template <class PointOf>
+std::vector<std::uint32_t> morton_order(std::size_t count, const PointOf& point_of) {
+  std::vector<MortonKey> keys(count);
+  for (std::size_t i = 0; i < count; ++i) keys[i].number = static_cast<std::uint32_t>(i);
+  sort_along_morton_curve(keys, point_of);
+  std::vector<std::uint32_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].number;
+  return order;
+}
+
+}  // namespace gaussmesh
