@@ -32,9 +32,9 @@ struct Box {
 
 /// Whether two boxes have a point in common; touching counts. Without branches: most callers cannot predict it.
 inline bool boxes_meet(const Box& a, const Box& b) {
-  bool meet = true;
-  for (int k = 0; k < 3; ++k) meet &= (a.low[k] <= b.high[k]) & (b.low[k] <= a.high[k]);
-  return meet;
+  unsigned meet = 1;
+  for (int k = 0; k < 3; ++k) meet &= unsigned{a.low[k] <= b.high[k]} & unsigned{b.low[k] <= a.high[k]};
+  return meet != 0;
 }
 
 inline Box box_of(const TriangleMesh& mesh, const Triangle& triangle) {

@@ -135,7 +135,8 @@ void add_edge_topology(const EdgeTopology& topology, MeshCheck& check) {
   check.isolated_vertices = topology.isolated_vertices;
 }
 
-void add_components(const EdgeTopology& topology, const std::vector<ComponentGeometry>& geometry, MeshCheck& check) {
+void add_components(const EdgeTopology& topology, const std::vector<ComponentGeometry>& geometry,
+                    MeshCheck& check) {
   for (std::size_t c = 0; c < geometry.size(); ++c) {
     check.components.push_back(describe(topology.components[c], geometry[c]));
     check.chi += check.components[c].chi;
@@ -190,9 +191,9 @@ MeshCheck check_mesh(const TriangleMesh& mesh) {
 }
 
 bool MeshCheck::fit_for_solver() const {
-  const std::size_t defects = bad_indices + bad_coordinates + boundary_edges + nonmanifold_edges + misoriented_edges +
-                              nonmanifold_vertices + isolated_vertices + duplicate_vertices + degenerate_triangles +
-                              intersecting_pairs + inverted_components;
+  const std::size_t defects = bad_indices + bad_coordinates + boundary_edges + nonmanifold_edges +
+                              misoriented_edges + nonmanifold_vertices + isolated_vertices + duplicate_vertices +
+                              degenerate_triangles + intersecting_pairs + inverted_components;
   return triangles > 0 && defects == 0;
 }
 

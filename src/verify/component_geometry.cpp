@@ -88,7 +88,8 @@ bool is_below(const Point& p, const Point& a, const Point& b, const Point& c) {
   return orient3d(a, b, c, p) * turn < 0;
 }
 
-/// Number of closed components other than `own` that the ray upwards from `p` leaves: crosses an odd number of times.
+/// Number of closed components other than `own` that `p` is in: those that the ray upwards crosses an odd number of
+/// times.
 std::size_t count_around(const Point& p, std::uint32_t own, const TriangleMesh& mesh, const EdgeTopology& topology,
                          const TriangleTree& tree) {
   std::vector<std::uint32_t> crossed;
@@ -117,10 +118,10 @@ std::vector<ComponentGeometry> measure_components(const TriangleMesh& mesh, cons
   const std::vector<Sums> sums = sum_components(mesh, topology);
   std::vector<ComponentGeometry> components(sums.size());
 #pragma omp parallel for schedule(dynamic)
-  for (std::uint32_t c = 0; c < components.size(); ++c) {
+  for (std::size_t c = 0; c < components.size(); ++c) {
     components[c] = {sums[c].area, sums[c].volume, safe_volume_sign(sums[c]), 0};
     if (components.size() > 1 && topology.components[c].closed)
-      components[c].depth = count_around(sums[c].origin, c, mesh, topology, tree);
+      components[c].depth = count_around(sums[c].origin, static_cast<std::uint32_t>(c), mesh, topology, tree);
   }
   settle_volume_signs(mesh, topology, sums, components);
   return components;

@@ -12,10 +12,10 @@ namespace gaussmesh {
 
 /// One component of EdgeTopology::components.
 struct ComponentGeometry {
-  double area = 0.0;       ///< Eq. (3) of [LCL15]
-  double volume = 0.0;     ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
-  int volume_sign = 0;     ///< exact, of the sum without rounding
-  std::size_t depth = 0;   ///< closed components that it lies inside of; 0 for one that is not closed itself
+  double area = 0.0;      ///< Eq. (3) of [LCL15]
+  double volume = 0.0;    ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
+  int volume_sign = 0;    ///< exact, of the sum without rounding
+  std::size_t depth = 0;  ///< closed components that it lies inside of; 0 for one that is not closed itself
 };
 
 /// Measures every component.

@@ -19,7 +19,8 @@ class VertexStars {
       for (const std::uint32_t vertex : triangle) ++start_[vertex];
     std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
     for (std::size_t t = mesh.triangles.size(); t-- > 0;)  // backwards, so that each star is in rising order
-      for (const std::uint32_t vertex : mesh.triangles[t]) triangles_[--start_[vertex]] = static_cast<std::uint32_t>(t);
+      for (const std::uint32_t vertex : mesh.triangles[t])
+        triangles_[--start_[vertex]] = static_cast<std::uint32_t>(t);
   }
 
   std::span<const std::uint32_t> star(std::size_t vertex) const {
@@ -49,9 +50,8 @@ class SpokeList {
       spokes_.push_back({triangle[(k + 1) % 3], place, true});
       spokes_.push_back({triangle[(k + 2) % 3], place, false});
     }
-    std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
-      return a.to != b.to ? a.to < b.to : a.place < b.place;
-    });
+    std::sort(spokes_.begin(), spokes_.end(),
+              [](const Spoke& a, const Spoke& b) { return a.to != b.to ? a.to < b.to : a.place < b.place; });
   }
 
   /// Calls visit(spokes) for each edge.

@@ -52,7 +52,7 @@ class OrientedPlane {
 
  private:
   Point a_{}, b_{}, c_{};
-  Point normal_{};      // (b - a) x (c - a), rounded
+  Point normal_{};       // (b - a) x (c - a), rounded
   Point normal_size_{};  // the same with every product taken positive: what the error is in proportion to
 };
 

@@ -7,14 +7,12 @@ namespace gaussmesh {
 namespace {
 
 constexpr double kLeftOut = 1e-13;  // share of phi that may be missing
-constexpr double kReach = 0.75;      // widths of a Gaussian that atoms are gathered for round a point
+constexpr double kReach = 0.75;     // widths of a Gaussian that atoms are gathered for round a point
 
 }  // namespace
 
 LogField::LogField(const AtomTree& tree, double decay)
-    : tree_(tree),
-      decay_(decay),
-      range_(std::log(static_cast<double>(tree.atom_count()) / kLeftOut) / decay) {}
+    : tree_(tree), decay_(decay), range_(std::log(static_cast<double>(tree.atom_count()) / kLeftOut) / decay) {}
 
 void LogField::gather_round(const Point& x) {
   const double margin = kReach / std::sqrt(decay_);

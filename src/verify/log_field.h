@@ -31,7 +31,7 @@ class LogField {
 
   const AtomTree& tree_;
   double decay_;
-  double range_;  // exponents that far below the largest do not count
+  double range_;                   // exponents that far below the largest do not count
   Box place_;                      // where `near_` serves
   std::vector<Atom> near_;         // the atoms that count there
   std::vector<double> exponents_;  // theirs, at the point in hand

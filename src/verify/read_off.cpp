@@ -69,8 +69,8 @@ class LineReader {
   std::size_t bytes_left() const { return rest_.size(); }
 
   [[noreturn]] void fail(const std::string& expected) const {
-    throw InputError(std::string(name_) + ":" + std::to_string(std::max<std::size_t>(number_, 1)) + ": expected " + expected + ", got '" +
-                     shown(line_) + "'");
+    throw InputError(std::string(name_) + ":" + std::to_string(std::max<std::size_t>(number_, 1)) + ": expected " +
+                     expected + ", got '" + shown(line_) + "'");
   }
 
  private:

@@ -34,8 +34,8 @@ void count_in(std::array<std::size_t, N>& histogram, double value, double range)
   ++histogram[std::min(bin, N - 1)];
 }
 
-/// Angles of a triangle with the sides ab, bc, ca: smallest, middle, largest. The smallest and the largest come from sine and
-/// cosine together, which loses nothing in needles; the third is what is left.
+/// Angles of a triangle with the sides ab, bc, ca: smallest, middle, largest. The smallest and the largest come
+/// from sine and cosine together, which loses nothing in needles; the third is what is left.
 std::array<double, 3> angles_deg(const std::array<Point, 3>& sides, const std::array<double, 3>& lengths) {
   const auto shortest = std::min_element(lengths.begin(), lengths.end()) - lengths.begin();
   const auto longest = std::max_element(lengths.begin(), lengths.end()) - lengths.begin();

@@ -35,8 +35,8 @@ struct Foot {
 
 /// Follows the gradient of log phi from `start` to the surface.
 ///
-/// A step may be a quarter of a Gaussian's width long, so as not to leap where the gradient is small; this grows with every
-/// step, so that the way from far outside is not long either. A step of size s leaves an error of about
+/// A step may be a quarter of a Gaussian's width long, so as not to leap where the gradient is small; this grows
+/// with every step, so that the way from far outside is not long either. A step of size s leaves an error of about
 /// s^2 / (2 width) behind, with which it is the last if that is below the precision promised.
 Foot find_foot(Level& level, const Point& start) {
   constexpr int kMostSteps = 100;
@@ -114,17 +114,19 @@ SurfaceDistance distance_to_surface(const TriangleMesh& mesh, const std::vector<
   const AtomTree tree(atoms);
 
   std::vector<double> at_vertices(mesh.vertices.size());
-  find_feet(tree, decay, isovalue, mesh.vertices.size(), [&](std::uint32_t v) { return mesh.vertices[v]; },
-            [&](std::uint32_t v, const Foot& foot) { at_vertices[v] = foot.distance; });
+  find_feet(
+      tree, decay, isovalue, mesh.vertices.size(), [&](std::uint32_t v) { return mesh.vertices[v]; },
+      [&](std::uint32_t v, const Foot& foot) { at_vertices[v] = foot.distance; });
 
   std::vector<double> at_centroids(mesh.triangles.size());
   std::vector<std::uint8_t> against(mesh.triangles.size());
-  find_feet(tree, decay, isovalue, mesh.triangles.size(),
-            [&](std::uint32_t t) { return centroid_of(mesh, mesh.triangles[t]); },
-            [&](std::uint32_t t, const Foot& foot) {
-              at_centroids[t] = foot.distance;
-              against[t] = is_against(mesh, mesh.triangles[t], foot.gradient);
-            });
+  find_feet(
+      tree, decay, isovalue, mesh.triangles.size(),
+      [&](std::uint32_t t) { return centroid_of(mesh, mesh.triangles[t]); },
+      [&](std::uint32_t t, const Foot& foot) {
+        at_centroids[t] = foot.distance;
+        against[t] = is_against(mesh, mesh.triangles[t], foot.gradient);
+      });
 
   const MaxAndMean vertices = max_and_mean(at_vertices);
   const MaxAndMean centroids = max_and_mean(at_centroids);

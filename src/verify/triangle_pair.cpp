@@ -125,10 +125,14 @@ bool meet_beyond_shared(const PlacedTriangle& s, const PlacedTriangle& t) {
         t_sum += j;
       }
   switch (shared) {
-    case 0: return meet_at_all(s, t);
-    case 1: return meet_beyond_corner(s, s_sum, t, t_sum);
-    case 2: return meet_beyond_edge(s, 3 - s_sum, t, 3 - t_sum);
-    default: return true;
+    case 0:
+      return meet_at_all(s, t);
+    case 1:
+      return meet_beyond_corner(s, s_sum, t, t_sum);
+    case 2:
+      return meet_beyond_edge(s, 3 - s_sum, t, 3 - t_sum);
+    default:
+      return true;
   }
 }
 
