@@ -17,14 +17,8 @@ class BrickTracer {
   BrickTracer(const GaussianField& field, const Lattice& lattice, const CellStore& store)
       : lattice_(lattice), store_(store), tracer_(field, lattice) {}
 
-  struct Result {
-    std::vector<Link> links;
-    std::vector<SurfacePoint> points;
-    std::vector<std::array<std::uint8_t, 3>> counts;
-  };
-
-  Result trace(std::uint32_t brick_number) {
-    Result result;
+  TracedBrick trace(std::uint32_t brick_number) {
+    TracedBrick result;
     const Brick& brick = store_.bricks()[brick_number];
     result.counts.resize(brick.cells.size());
     for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
@@ -40,7 +34,7 @@ class BrickTracer {
   }
 
  private:
-  void trace_face(const CellStore::Place& place, int axis, Result& result) {
+  void trace_face(const CellStore::Place& place, int axis, TracedBrick& result) {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
     collect_roots(place, axis);
@@ -186,27 +180,38 @@ constexpr std::size_t kLeavesPerTask = 64;
 
 }  // namespace
 
-void trace_level_zero_faces(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                            std::uint32_t first_vertex, int threads) {
-  std::vector<Brick>& bricks = store.bricks();
-  std::vector<BrickTracer::Result> results(bricks.size());
+LevelZeroTracer::LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store)
+    : field_(field), lattice_(lattice), store_(store), traced_(store.bricks().size()) {}
+
+void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
+  std::vector<Brick>& bricks = store_.bricks();
   parallel_for(bricks.size(), threads, [&](std::size_t i) {
-    results[i] = BrickTracer(field, lattice, store).trace(static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> state;
+    for (const SurfaceCell& cell : bricks[i].cells) {
+      std::uint32_t flags = cell.divided_faces;
+      for (const std::uint8_t axes : cell.fold_axes) flags = flags << 8 | axes;
+      state.push_back(flags);
+    }
+    if (state == traced_[i].state && traced_[i].is_done) return;
+    traced_[i] = BrickTracer(field_, lattice_, store_).trace(static_cast<std::uint32_t>(i));
+    traced_[i].state = std::move(state);
+    traced_[i].is_done = true;
   });
   std::uint32_t next_vertex = first_vertex;
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     Brick& brick = bricks[i];
-    brick.links = std::move(results[i].links);
-    brick.face_points = std::move(results[i].points);
+    const TracedBrick& traced = traced_[i];
+    brick.links = traced.links;
+    brick.face_points = traced.points;
     for (Link& link : brick.links) {
       for (std::uint32_t* v : {&link.from, &link.to}) *v = *v >= kLocalVertex ? next_vertex + (*v - kLocalVertex) : *v;
     }
     next_vertex += static_cast<std::uint32_t>(brick.face_points.size());
     std::uint32_t first_link = 0;
     for (std::size_t c = 0; c < brick.cells.size(); ++c) {
-      brick.cells[c].link_count = results[i].counts[c];
+      brick.cells[c].link_count = traced.counts[c];
       brick.cells[c].first_link = first_link;
-      for (std::uint8_t count : results[i].counts[c]) first_link += count;
+      for (std::uint8_t count : traced.counts[c]) first_link += count;
     }
   }
 }

@@ -15,10 +15,29 @@ struct TracedSurface {
   std::vector<Triangle> triangles;
 };
 
-/// Follows the curves on all faces of level 0 that smaller cells have not taken over. Fills `links` and `face_points`
-/// of the bricks; vertices inside faces are numbered from `first_vertex` on.
-void trace_level_zero_faces(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                            std::uint32_t first_vertex, int threads);
+/// The curves on the faces of one brick. Vertices inside faces are numbered within it, from kLocalVertex on.
+struct TracedBrick {
+  std::vector<Link> links;
+  std::vector<SurfacePoint> points;
+  std::vector<std::array<std::uint8_t, 3>> counts;   ///< links by cell and face
+  std::vector<std::uint32_t> state;                  ///< what was asked of the faces, by cell
+  bool is_done = false;
+};
+
+/// Follows the curves on the faces of level 0, and again where smaller cells have since taken faces over.
+class LevelZeroTracer {
+ public:
+  LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store);
+
+  /// Fills `links` and `face_points` of the bricks; vertices inside faces are numbered from `first_vertex` on.
+  void trace(std::uint32_t first_vertex, int threads);
+
+ private:
+  const GaussianField& field_;
+  const Lattice& lattice_;
+  CellStore& store_;
+  std::vector<TracedBrick> traced_;
+};
 
 /// What triangulating the cells gave.
 struct PatchOutcome {

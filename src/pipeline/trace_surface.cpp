@@ -60,6 +60,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int thr
     folds = find_fold_cells(lattice, store, proof, threads);
     finished("folds");
   }
+  LevelZeroTracer faces(field, lattice, store);
   CellSet forced;
   for (int round = 0; round < kMaxRounds; ++round) {
     SplitLattice split(field, lattice, store, folds, forced, threads);
@@ -69,7 +70,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int thr
       return result;
     }
     split.trace_faces(threads);
-    trace_level_zero_faces(field, lattice, store, split.next_vertex(), threads);
+    faces.trace(split.next_vertex(), threads);
     finished("curves");
     PatchOutcome outcome = triangulate_cells(field, lattice, store, split, folds, threads);
     finished("patches");
