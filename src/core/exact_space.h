@@ -1,6 +1,8 @@
 // Exact signs for points in space in whole-number coordinates, and whether triangles meet.
 #pragma once
 
+#include <algorithm>
+
 #include "core/lattice.h"
 
 namespace gaussmesh {
