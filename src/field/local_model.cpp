@@ -112,24 +112,21 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
   if (n == 0) return;
   empty_ = false;
 
-  double largest = -kInfinity, w_size = 1.0;
-  atoms_lo_ = {kInfinity, kInfinity, kInfinity};
-  atoms_hi_ = {-kInfinity, -kInfinity, -kInfinity};
-  for (std::size_t i = 0; i < n; ++i) {
-    const double ux = middle_[0] - atoms.x[i], uy = middle_[1] - atoms.y[i], uz = middle_[2] - atoms.z[i];
-    largest = std::max(largest, atoms.w[i] - decay * (ux * ux + uy * uy + uz * uz));
-    w_size = std::max(w_size, std::abs(atoms.w[i]));
-    atoms_lo_ = {std::min(atoms_lo_[0], atoms.x[i]), std::min(atoms_lo_[1], atoms.y[i]),
-                 std::min(atoms_lo_[2], atoms.z[i])};
-    atoms_hi_ = {std::max(atoms_hi_[0], atoms.x[i]), std::max(atoms_hi_[1], atoms.y[i]),
-                 std::max(atoms_hi_[2], atoms.z[i])};
-  }
-  const double shift = std::abs(largest) < 300.0 ? 0.0 : largest;
+  atoms_lo_ = atoms.lo;
+  atoms_hi_ = atoms.hi;
 
   thread_local std::vector<double> weight;
   weight.resize(std::max(weight.size(), n));
-  const FirstMoments first = first_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(),
-                                           weight.data(), n, decay, middle_.data(), shift);
+  const auto moments_with = [&](double shift) {
+    return first_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), weight.data(), n, decay,
+                         middle_.data(), shift);
+  };
+  double shift = 0.0;
+  FirstMoments first = moments_with(shift);
+  if (!(first.total > 1e-100 && first.total < 1e100)) {  // far from the surface: keep the exponents in range
+    shift = largest_exponent(atoms, decay, middle_);
+    first = moments_with(shift);
+  }
   const double inverse = 1.0 / first.total;
   psi_ = shift + std::log(first.total);
   mean_offset_ = {first.ux * inverse, first.uy * inverse, first.uz * inverse};
@@ -138,7 +135,7 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
                                                  decay, centre.data(), half_.data());
   for (int i = 0; i < 6; ++i) second_[i] = moments.second[i] * inverse;
   for (int i = 0; i < 10; ++i) third_[i] = moments.third[i] * inverse;
-  relative_error_ = 2.0 * weight_error(2.0 * w_size + std::abs(largest) + kTruncation, n) + 1e-14;
+  relative_error_ = 2.0 * weight_error(2.0 * atoms.w_size + std::abs(psi_) + kFineTruncation, n) + 1e-14;
   growth_ = std::max(1.0, moments.growth * inverse) * (1.0 + 1e-6);
   // Rounding of exp(z) - 1 - ... is absolute: a few ulp of exp(z).
   const double lost = 16.0 * relative_error_ * growth_;

@@ -21,10 +21,15 @@ void NearAtoms::clear() {
   y.clear();
   z.clear();
   w.clear();
-  tail = tail_slope = 0.0;
+  tail = tail_slope = w_size = 0.0;
+  lo = {kEmptyLo, kEmptyLo, kEmptyLo};
+  hi = {-kEmptyLo, -kEmptyLo, -kEmptyLo};
 }
 
 void NearAtoms::add(double ax, double ay, double az, double aw) {
+  lo = {std::min(lo[0], ax), std::min(lo[1], ay), std::min(lo[2], az)};
+  hi = {std::max(hi[0], ax), std::max(hi[1], ay), std::max(hi[2], az)};
+  w_size = std::max(w_size, std::abs(aw));
   x.push_back(ax);
   y.push_back(ay);
   z.push_back(az);

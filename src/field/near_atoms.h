@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/lattice.h"
 
 namespace gaussmesh {
+
+inline constexpr double kEmptyLo = std::numeric_limits<double>::infinity();
 
 /// Atoms near a box, as arrays for SIMD, in an order that depends on the atoms alone.
 ///
@@ -17,6 +20,9 @@ class NearAtoms {
  public:
   std::vector<double> x, y, z;  ///< centres (A)
   std::vector<double> w;        ///< log-weights
+  Vec3 lo{kEmptyLo, kEmptyLo, kEmptyLo};   ///< box round the centres, turned inside out while there are none
+  Vec3 hi{-kEmptyLo, -kEmptyLo, -kEmptyLo};
+  double w_size = 0.0;          ///< largest |w|
   double tail = 0.0;
   double tail_slope = 0.0;      ///< 1/A
 

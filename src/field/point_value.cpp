@@ -17,7 +17,7 @@ struct WeightSums {
 };
 
 GAUSSMESH_SIMD_CLONES
-double largest_exponent(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+double largest_of(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
                         double px, double py, double pz) {
   double largest = -1e300;
 #pragma omp simd reduction(max : largest)
@@ -52,6 +52,11 @@ double weight_error(double exponent_size, std::size_t n) {
   return 4.0 * kEpsilon * exponent_size + kVectorExpError + kEpsilon * static_cast<double>(n + 4);
 }
 
+double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& p) {
+  return largest_of(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.size(), decay, p[0], p[1],
+                    p[2]);
+}
+
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
   const std::size_t n = atoms.size();
   PointValue result;
@@ -59,21 +64,23 @@ PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
     result.value = -700.0;
     return result;
   }
-  const double largest = largest_exponent(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay,
-                                          p[0], p[1], p[2]);
-  // Near the surface no exponent is above zero, and none needs a shift; elsewhere it keeps the sum in range.
-  const double shift = std::abs(largest) < 300.0 ? 0.0 : largest;
-  const WeightSums s = weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay, p[0],
-                                   p[1], p[2], shift);
+  const auto sums_with = [&](double shift) {
+    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay, p[0], p[1], p[2],
+                       shift);
+  };
+  double shift = 0.0;
+  WeightSums s = sums_with(shift);
+  if (!(s.total > 1e-100 && s.total < 1e100)) {  // far from the surface: keep the exponents in range
+    shift = largest_exponent(atoms, decay, p);
+    s = sums_with(shift);
+  }
   result.value = shift + std::log(s.total);
   const double factor = -2.0 * decay / s.total;
   result.gradient = {factor * s.ux, factor * s.uy, factor * s.uz};
 
-  // The atoms that weigh anything have exponents near `largest`: w_i and d |u_i|^2 differ by about that. The largest
+  // The atoms that weigh anything have exponents near the value: w_i and d |u_i|^2 differ by about that. The largest
   // log-weight bounds both.
-  double w_size = 1.0;
-  for (std::size_t i = 0; i < n; ++i) w_size = std::max(w_size, std::abs(atoms.w[i]));
-  const double exponent_size = 2.0 * w_size + std::abs(largest) + kTruncation;
+  const double exponent_size = 2.0 * atoms.w_size + std::abs(result.value) + kFineTruncation;
   const double log_error = 4e-16 * (std::abs(result.value) + 1.0);
   result.error = 1.001 * weight_error(exponent_size, n) + log_error;
   return result;

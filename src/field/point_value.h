@@ -22,6 +22,9 @@ Side side_of(const PointValue& value, const NearAtoms& atoms);
 /// Cost: one exponential per atom, some 100 ns near a protein.
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& point);
 
+/// Largest exponent w_i - d |p - x_i|^2; there is an atom.
+double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& point);
+
 /// Relative rounding error of a sum of n weights exp(e), |e| assembled from terms up to `exponent_size`.
 ///
 /// An exponent w - d |u|^2 takes 8 roundings of relative 2^-53 on terms of at most that size; the exponential has
