@@ -1,0 +1,157 @@
+#include "boxes/cell_prover.h"
+
+#include "boxes/brick_cells.h"
+#include "catch2.h"
+#include "support/fields.h"
+#include "support/lattices.h"
+
+using namespace gaussmesh;
+using namespace gaussmesh::testing;
+
+namespace {
+
+using Kind = CellCertificate::Kind;
+
+/// What is wrong with a certificate as far as a dense look at the cell tells; empty: nothing.
+std::string refute(const CellCertificate& certificate, const ExactField& exact, const Box& box, int samples) {
+  if (certificate.kind == Kind::kUncertified) return {};
+  const std::vector<Vec3> points = grid_points(box, samples);
+  std::vector<bool> inside;
+  for (const Vec3& p : points) inside.push_back(exact.psi(p) >= 0.0L);
+  if (certificate.kind == Kind::kExcluded) {
+    const bool one_side = std::all_of(inside.begin(), inside.end(), [&](bool b) { return b == inside[0]; });
+    return one_side ? "" : "an excluded cell has a change of sign";
+  }
+  // Along the axis: from outside to inside where phi grows, and never back.
+  const int axis = certificate.axis;
+  std::size_t stride = 1;
+  for (int k = 2; k > axis; --k) stride *= static_cast<std::size_t>(samples);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i][axis] == box.hi[axis]) continue;
+    const std::size_t next = i + stride;
+    if (inside[i] == inside[next]) continue;
+    if (inside[next] != (certificate.sign > 0)) return "the surface is crossed against the certificate";
+    const Vec3 on = inside[i] ? surface_between(exact, points[i], points[next]) : surface_between(exact, points[next], points[i]);
+    const double slope = static_cast<double>(exact.gradient(on)[axis]);
+    if (slope * certificate.sign <= 0.0) return "the slope on the surface is against the certificate";
+  }
+  return {};
+}
+
+CellCertificate certify(const GaussianField& field, const Box& box, int depth) {
+  NearAtoms near;
+  field.collect_near(box, near);
+  CellProver prover(field.decay(), depth);
+  return prover.certify(near, LocalModel(near, field.decay(), box));
+}
+
+}  // namespace
+
+TEST_CASE("no certificate is refuted by a dense look at its cell") {
+  const std::uint64_t seed = 42;
+  CAPTURE(seed);
+  Random random(seed);
+  std::size_t excluded = 0, monotone = 0, uncertified = 0;
+  for (int cloud = 0; cloud < 20; ++cloud) {
+    const double decay = random.logarithmic(0.3, 3.0), isovalue = random.logarithmic(0.5, 2.0);
+    const std::vector<Atom> atoms = random_cloud(random, {12, 6.0, 0.8, 2.2, 0.1});
+    const GaussianField field(atoms, decay, isovalue);
+    const ExactField exact(atoms, decay, isovalue);
+    for (int i = 0; i < 60; ++i) {
+      const Box box = box_around(random_point(random, box_around({0, 0, 0}, 5.0)), random.logarithmic(0.05, 1.0));
+      const CellCertificate certificate = certify(field, box, 3);
+      excluded += certificate.kind == Kind::kExcluded;
+      monotone += certificate.kind == Kind::kMonotone;
+      uncertified += certificate.kind == Kind::kUncertified;
+      CAPTURE(decay, isovalue, certificate.axis, certificate.sign);
+      REQUIRE(refute(certificate, exact, box, 9) == "");
+    }
+  }
+  CHECK(excluded > 100);
+  CHECK(monotone > 100);
+  CHECK(uncertified > 0);
+}
+
+TEST_CASE("cells with radii of 35 and 1000 A have certificates that hold") {
+  const std::uint64_t seed = 43;
+  CAPTURE(seed);
+  Random random(seed);
+  for (const FieldSample& sample : field_samples(seed)) {
+    CAPTURE(sample.what);
+    const GaussianField field(sample.atoms, 0.6, 1.3);
+    const ExactField exact(sample.atoms, 0.6, 1.3);
+    std::size_t certified = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Box box = box_around(random_point(random, sample.room), 0.2);
+      const CellCertificate certificate = certify(field, box, 3);
+      certified += certificate.kind != Kind::kUncertified;
+      REQUIRE(refute(certificate, exact, box, 7) == "");
+    }
+    CHECK(certified > 50);
+  }
+}
+
+TEST_CASE("on a sphere the axis of the certificate is one that the sphere is single-valued along") {
+  const GaussianField field({{0, 0, 0, 2.0, 0}}, 0.6, 1.0);
+  const Box top{{-0.3, -0.3, 1.8}, {0.3, 0.3, 2.4}};
+  const CellCertificate certificate = certify(field, top, 3);
+  CHECK(certificate.kind == Kind::kMonotone);
+  CHECK(certificate.axis == 2);
+  CHECK(certificate.sign == -1);
+  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).axis == 1);
+  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).sign == 1);
+  CHECK(certify(field, box_around({0, 0, 0}, 0.5), 3).kind == Kind::kExcluded);
+  CHECK(certify(field, box_around({4, 0, 0}, 0.5), 3).kind == Kind::kExcluded);
+  CHECK(certify(field, box_around({0, 0, 0}, 3.0), 4).kind == Kind::kUncertified);
+}
+
+TEST_CASE("a proof through sub-boxes finds the axis of a cell that bounds over the whole cell do not show") {
+  NearAtoms near;
+  const GaussianField field({{0, 0, 0, 2.0, 0}}, 0.6, 1.0);
+  const Box upper_half{{-2.5, -2.5, 0.1}, {2.5, 2.5, 5.1}};  // a hemisphere, nearly: single-valued along z alone
+  field.collect_near(upper_half, near);
+  CellProver prover(0.6, 8);
+  CHECK(prover.prove_monotone(near, upper_half, 2, -1, 8));
+  CHECK_FALSE(prover.prove_monotone(near, upper_half, 2, 1, 8));
+  CHECK_FALSE(prover.prove_monotone(near, upper_half, 0, 1, 8));
+  CHECK_FALSE(prover.prove_monotone(near, upper_half, 0, -1, 8));
+  std::size_t boxes = 0;
+  for (const std::size_t n : prover.boxes_by_depth()) boxes += n;
+  CHECK(boxes > 0);
+}
+
+TEST_CASE("walking bricks finds every cell that the surface passes through, and each once") {
+  const std::uint64_t seed = 44;
+  CAPTURE(seed);
+  Random random(seed);
+  std::size_t crossed = 0;
+  for (int cloud = 0; cloud < 6; ++cloud) {
+    const double decay = random.logarithmic(0.3, 3.0), spacing = random.logarithmic(0.2, 1.5);
+    CAPTURE(decay, spacing);
+    const std::vector<Atom> atoms = random_cloud(random, {8, 5.0, 0.8, 2.2, 0.1});
+    const GaussianField field(atoms, decay, 1.2);
+    const ExactField exact(atoms, decay, 1.2);
+    const Lattice lattice = lattice_of(spacing);
+    std::vector<FineIndex> cells;
+    BrickWalker walker(field, lattice);
+    for (const BrickIndex& brick : find_bricks(field, lattice)) {
+      walker.walk(brick, [&](const BrickWalker::Cell& cell) {
+        cells.push_back(cell.lo);
+        CHECK(cell.certificate.kind != Kind::kExcluded);
+        CHECK(cell.model.box().lo == cell_box(lattice, {cell.lo, 0}).lo);
+      });
+    }
+    std::sort(cells.begin(), cells.end());
+    CHECK(std::adjacent_find(cells.begin(), cells.end()) == cells.end());
+    for (int i = 0; i < 1500; ++i) {
+      const Vec3 p = random_point(random, box_around({0, 0, 0}, 4.0)), q = random_point(random, box_around({0, 0, 0}, 6.0));
+      if (exact.psi(p) < 0.0L || exact.psi(q) >= 0.0L) continue;
+      const CellKey cell = cell_at(lattice, surface_between(exact, p, q));
+      REQUIRE(std::binary_search(cells.begin(), cells.end(), cell.lo));
+      ++crossed;
+    }
+    const std::vector<std::size_t> levels = walker.boxes_by_level();
+    CHECK(levels[2] >= cells.size());
+  }
+  CHECK(crossed > 500);
+}

@@ -1,0 +1,50 @@
+#include "core/parallel.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catch2.h"
+
+using namespace gaussmesh;
+
+TEST_CASE("parallel_for calls every index once, whatever the number of threads") {
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t count : {0u, 1u, 2u, 1000u}) {
+      std::vector<int> calls(count, 0);
+      parallel_for(count, threads, [&](std::size_t i) { ++calls[i]; });
+      CHECK(calls == std::vector<int>(count, 1));
+    }
+  }
+}
+
+TEST_CASE("parallel_for throws the exception of the smallest index") {
+  for (const int threads : {1, 2, 5}) {
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      std::string caught;
+      try {
+        parallel_for(500, threads, [](std::size_t i) {
+          if (i % 100 == 37) throw std::runtime_error(std::to_string(i));
+        });
+      } catch (const std::runtime_error& error) {
+        caught = error.what();
+      }
+      CHECK(caught == "37");
+    }
+  }
+}
+
+TEST_CASE("parallel_for keeps the type of what was thrown") {
+  struct Own {
+    int value;
+  };
+  try {
+    parallel_for(10, 2, [](std::size_t i) {
+      if (i == 3) throw Own{33};
+      if (i == 8) throw std::runtime_error("later");
+    });
+    FAIL("nothing was thrown");
+  } catch (const Own& own) {
+    CHECK(own.value == 33);
+  }
+}

@@ -1,0 +1,56 @@
+#include "core/vector_exp.h"
+
+#include <cmath>
+
+#include "catch2.h"
+#include "support/random.h"
+
+using namespace gaussmesh;
+using testing::Random;
+
+namespace {
+
+double relative_error(double x) {
+  const long double exact = std::exp(static_cast<long double>(x));
+  return static_cast<double>(std::abs(static_cast<long double>(vector_exp(x)) / exact - 1.0L));
+}
+
+}  // namespace
+
+TEST_CASE("vector_exp keeps the error that the bounds rely on") {
+  double largest = 0.0;
+  SECTION("over the whole range") {
+    const std::uint64_t seed = 2;
+    CAPTURE(seed);
+    Random random(seed);
+    for (int i = 0; i < 1000000; ++i) largest = std::max(largest, relative_error(random.uniform(-700.0, 700.0)));
+  }
+  SECTION("where the argument reduction changes over: odd multiples of ln(2) / 2") {
+    for (int n = -2019; n <= 2019; n += 2) {
+      const double at = 0.5 * n * std::log(2.0);
+      for (const double x : {std::nextafter(at, -1e9), at, std::nextafter(at, 1e9)}) {
+        largest = std::max(largest, relative_error(x));
+      }
+    }
+  }
+  SECTION("near zero and at the ends") {
+    for (double x = 1.0; x > 1e-300; x *= 0.1) {
+      largest = std::max({largest, relative_error(x), relative_error(-x)});
+    }
+    largest = std::max({largest, relative_error(700.0), relative_error(-700.0)});
+  }
+  CHECK(largest <= kVectorExpError);
+  CHECK(largest > 0.0);
+}
+
+TEST_CASE("vector_exp(0) is 1") {
+  CHECK(vector_exp(0.0) == 1.0);
+  CHECK(vector_exp(-0.0) == 1.0);
+}
+
+TEST_CASE("vector_exp is clamped, and so is always a positive finite number") {
+  for (const double x : {700.0, 701.0, 1e6, 1e300, std::numeric_limits<double>::infinity()}) {
+    CHECK(vector_exp(x) == vector_exp(700.0));
+    CHECK(vector_exp(-x) == vector_exp(-700.0));
+  }
+}
