@@ -178,6 +178,7 @@ bool PatchTriangulator::diagonal_is_free(const Polygon& polygon, int i, int j) c
   const int n = static_cast<int>(polygon.size());
   const auto inside_angle = [&](int at, const Corner& to) {
     const PlanePoint &here = polygon[at].at, &before = polygon[(at + n - 1) % n].at, &after = polygon[(at + 1) % n].at;
+    if (before == after) return true;  // the end of a slit: segment_is_clear refuses the slit's own direction
     const bool left_of_after = turn(here, after, to.at) > 0, right_of_before = turn(here, before, to.at) < 0;
     const bool convex = turn(before, here, after) > 0;
     return convex ? left_of_after && right_of_before : left_of_after || right_of_before;
