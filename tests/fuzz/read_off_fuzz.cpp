@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"

@@ -120,6 +120,14 @@ TEST_CASE("needles: their angles are good to the last digits") {
   CHECK(check.under_30_deg == 1.0);
 }
 
+TEST_CASE("the shape of a triangle that is one point") {
+  const MeshCheck check = check_mesh({{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}});
+  CHECK(check.min_angle_deg == 0.0);
+  CHECK(check.max_angle_deg == 180.0);
+  CHECK(check.mean_edge_ratio == 0.0);
+  CHECK(check.degenerate_triangles == 1);
+}
+
 TEST_CASE("an empty mesh is not fit") {
   CHECK_FALSE(check_mesh({}).fit_for_solver());
   check_defects(check_mesh({{{0, 0, 0}}, {}}), {.isolated_vertices = 1});
@@ -130,6 +138,7 @@ TEST_CASE("holes and turned faces") {
   open.triangles.pop_back();
   check_defects(check_mesh(open), {.boundary_edges = 3, .nonmanifold_vertices = 3});
   CHECK_FALSE(check_mesh(open).components[0].closed);
+  CHECK(check_mesh(open).chi == 1);
 
   TriangleMesh one_turned = tetrahedron();
   std::swap(one_turned.triangles[2][0], one_turned.triangles[2][1]);
@@ -143,22 +152,22 @@ TEST_CASE("bad vertex numbers are counted and left out") {
   TriangleMesh mesh = tetrahedron();
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({4000000000u, 1, 2});
-  mesh.triangles.push_back({1, 1, 2});
-  check_defects(check_mesh(mesh), {.bad_indices = 2, .degenerate_triangles = 1});
-  CHECK(check_mesh(mesh).triangles == 7);
+  mesh.triangles.insert(mesh.triangles.end(), {Triangle{1, 1, 2}, {1, 2, 2}, {2, 1, 2}});
+  check_defects(check_mesh(mesh), {.bad_indices = 2, .degenerate_triangles = 3});
+  CHECK(check_mesh(mesh).triangles == 9);
   CHECK(check_mesh(mesh).chi == 2);
 }
 
 TEST_CASE("examples of intersections keep their numbers where triangles are left out") {
   TriangleMesh mesh = tetrahedron();
-  mesh.triangles.insert(mesh.triangles.begin() + 2, {0, 0, 9});
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 9});
   mesh.vertices.push_back({0.1, 0.1, -1});
   mesh.vertices.push_back({0.1, 0.1, 0.1});
   mesh.vertices.push_back({0.2, 0.1, -1});
   mesh.triangles.push_back({4, 5, 6});
   const MeshCheck check = check_mesh(mesh);
   REQUIRE(check.intersecting_examples.size() == 1);
-  CHECK(check.intersecting_examples[0] == std::array<std::uint32_t, 2>{0, 5});
+  CHECK(check.intersecting_examples[0] == std::array<std::uint32_t, 2>{1, 5});
 }
 
 TEST_CASE("coordinates that bar exact signs are counted, with the holes they leave") {
@@ -221,6 +230,7 @@ TEST_CASE("two spheres that touch") {
     CHECK(check.intersecting_pairs == 0);
     CHECK(check.components.size() == 1);
     CHECK_FALSE(check.components[0].closed);
+    CHECK(check.chi == 14 - 35 + 24);
   }
   SECTION("in a face") {
     CHECK(check_mesh(together(one, moved(cube(1), {2, 0.5, 0.5}))).intersecting_pairs > 0);
