@@ -105,7 +105,8 @@ struct SurfaceDistance {
 /// @throws OptionError if decay or isovalue is not positive, or there is no atom
 ///
 /// Cost: a few evaluations over the atoms nearby for each vertex and triangle, about 4 us a triangle on one core;
-/// memory in proportion to the atoms, vertices and triangles, not to the space that they lie in. The answer does not depend on the number of threads.
+/// memory in proportion to the atoms, vertices and triangles, not to the space that they lie in. The answer does
+/// not depend on the number of threads.
 SurfaceDistance distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                     double isovalue);
 
