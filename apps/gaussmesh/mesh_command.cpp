@@ -20,6 +20,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program.add_option("--spacing", command.options.spacing, "size of the triangles (A, 0.01 to 1000)")
       ->type_name("H")
       ->capture_default_str();
+  program.add_flag("--improve", command.options.improve, "make the triangles nearly equilateral (experimental)");
   program.add_option("--threads", command.options.threads, "threads (0: one for each processor)")
       ->type_name("N")
       ->capture_default_str();

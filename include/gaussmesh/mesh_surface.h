@@ -18,6 +18,7 @@ struct MeshOptions {
   double decay = 0.6;               ///< d, 1/A^2, 0.001 to 1000
   double isovalue = 1.7;            ///< c, 1e-9 to 1e9
   double spacing = 0.5;             ///< edge of the cells (A), 0.01 to 1000: the size of the triangles
+  bool improve = false;             ///< make the triangles nearly equilateral; not yet for production, see README
   int threads = 0;                  ///< 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
 };

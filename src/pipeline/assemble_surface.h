@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
+#include "improve/improve_surface.h"
 #include "pipeline/cell_store.h"
 #include "pipeline/split_lattice.h"
 
 namespace gaussmesh {
-
-/// The mesh as the trace makes it: vertices with their normals.
-struct TracedSurface {
-  std::vector<SurfacePoint> points;
-  std::vector<Triangle> triangles;
-};
 
 /// The curves on the faces of one brick. Vertices inside faces are numbered within it, from kLocalVertex on.
 struct TracedBrick {
@@ -41,7 +36,7 @@ class LevelZeroTracer {
 
 /// What triangulating the cells gave.
 struct PatchOutcome {
-  TracedSurface surface;
+  SurfaceMesh surface;
   std::size_t fold_cells = 0;    ///< cells cut along folds
   std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };

@@ -70,7 +70,7 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-TriangleMesh to_mesh(const TracedSurface& surface) {
+TriangleMesh to_mesh(const SurfaceMesh& surface) {
   TriangleMesh mesh;
   mesh.vertices.reserve(surface.points.size());
   for (const SurfacePoint& p : surface.points) mesh.vertices.push_back(to_angstrom(p.position));
@@ -173,6 +173,11 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
   if (trace.surface.triangles.empty()) {
     throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
                           " everywhere; choose a smaller c");
+  }
+  if (options.improve) {
+    const GaussianField used(atoms, options.decay, report.isovalue_used);
+    trace.surface = improve_surface(trace.surface, used, options.spacing, threads).mesh;
+    watch.finished("improve");
   }
   result.mesh = to_mesh(trace.surface);
   for (const SurfacePoint& p : trace.surface.points) result.normals.push_back(p.normal);

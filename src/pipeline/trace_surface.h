@@ -10,7 +10,7 @@ namespace gaussmesh {
 
 /// What the trace made, and how.
 struct TraceResult {
-  TracedSurface surface;
+  SurfaceMesh surface;
   std::vector<UncertifiedPlace> uncertified;   ///< not empty: no proof at the depth limit, and no surface
   std::vector<std::size_t> boxes_by_level;     ///< cubes of 4, 2 and 1 cells, then parts of cells, halving
   std::size_t bricks = 0;

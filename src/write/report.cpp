@@ -15,6 +15,7 @@ Json options_json(const MeshReport& report) {
           {"isovalue", o.isovalue},
           {"isovalue_used", report.isovalue_used},
           {"spacing_A", o.spacing},
+          {"improve", o.improve},
           {"threads", o.threads},
           {"allow_uncertified", o.allow_uncertified}};
 }
