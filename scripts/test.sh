@@ -80,7 +80,7 @@ step "g++ build, warnings are errors" build dev &&
   run_ctest "all tests" build/dev
 
 if step "clang build with sanitizers, warnings are errors" build fuzz; then
-  run_ctest "fast tests under the sanitizers" build/fuzz -L '^(unit|property|cli)$' -LE '^slow$'
+  run_ctest "fast tests under the sanitizers" build/fuzz -L '^(unit|cli)$'
   for source in tests/fuzz/*_fuzz.cpp; do
     target=$(basename "$source" .cpp)
     step "fuzz $target for $fuzz_seconds s" fuzz "$target"
