@@ -169,6 +169,39 @@ TEST_CASE("without atoms left out slope() holds everywhere in the box, surface o
   CHECK(claims > 1000);
 }
 
+TEST_CASE("where the slope is largest and about to change its sign, boxes of every size are right about it") {
+  // Two atoms at +-a with 2 d a^2 = 1.2: psi' = 2 d (a tanh(2 d a x) - x) along their axis rises a little, then falls.
+  const double decay = 0.5, a = std::sqrt(1.2);
+  std::size_t claims = 0, boxes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    NearAtoms pair;
+    Vec3 at{};
+    for (const double x : {a, -a}) {
+      at[axis] = x;
+      pair.add(at[0], at[1], at[2], 0.0);
+    }
+    const auto slope_at = [&](double x) { return 2.0 * decay * (a * std::tanh(2.0 * decay * a * x) - x); };
+    for (double middle = -1.2; middle <= 1.2; middle += 0.04) {
+      for (double half = 0.02; half < 1.0; half *= 1.2) {
+        Box box{};
+        box.lo[axis] = middle - half;
+        box.hi[axis] = middle + half;
+        const LocalModel model(pair, decay, box);
+        const Range slope = model.over_all().slope(axis);
+        ++boxes;
+        if (slope.lo <= 0.0 && slope.hi >= 0.0) continue;
+        ++claims;
+        for (int i = 0; i <= 20; ++i) {
+          const double x = middle - half + 0.1 * half * i;
+          CAPTURE(axis, middle, half, x);
+          REQUIRE((slope.lo > 0.0 ? slope_at(x) > 0.0 : slope_at(x) < 0.0));
+        }
+      }
+    }
+  }
+  CHECK(claims > boxes / 4);
+}
+
 TEST_CASE("one atom: the value is a parabola, and its bounds are close to exact") {
   NearAtoms one;
   one.add(0.5, 0, 0, 2.0);

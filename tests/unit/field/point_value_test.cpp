@@ -105,6 +105,7 @@ TEST_CASE("next to the surface the side is still told, a hundred roundings away"
   near.add(0, 0, 0, 0.6 * 4.0 - std::log(1.7));
   CHECK(side_of(evaluate(near, 0.6, {radius - 1e-12, 0, 0}), near) == Side::kInside);
   CHECK(side_of(evaluate(near, 0.6, {radius + 1e-12, 0, 0}), near) == Side::kOutside);
+  CHECK(side_of(evaluate(near, 0.6, {radius, 0, 0}), near) == Side::kUnknown);
   near.tail = 1e-6;  // atoms left out might bring the point inside
   CHECK(side_of(evaluate(near, 0.6, {radius + 1e-12, 0, 0}), near) == Side::kUnknown);
   CHECK(side_of(evaluate(near, 0.6, {radius + 1e-4, 0, 0}), near) == Side::kOutside);

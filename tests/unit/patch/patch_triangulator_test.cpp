@@ -78,6 +78,12 @@ TEST_CASE("a hole where a curve closes in the upper face is left open") {
   }
 }
 
+TEST_CASE("a hole in a face is not joined to the corner next to it that is on the same face") {
+  const PatchFacts facts = triangulate({loop_of({{0.5, 0, 1}, {1, 0.1, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}, {0, 0.1, 0.5}}, 0),
+                                        loop_of({{0.5, 0.2, 1}, {0.4, 0.4, 1}, {0.6, 0.4, 1}}, 5)});
+  CHECK(facts.chi == 0);
+}
+
 TEST_CASE("two holes, and a disc beside them") {
   const PatchFacts facts = triangulate({loop_of({{0, 0, 0.5}, {1, 0, 0.5}, {1, 0.6, 0.5}, {0, 0.6, 0.5}}, 0),
                                         loop_of({{0.1, 0.2, 1}, {0.2, 0.4, 1}, {0.3, 0.2, 1}}, 4),
