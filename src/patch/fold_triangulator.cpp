@@ -33,6 +33,27 @@ std::optional<Vec3> project_to_surface(const NearAtoms& atoms, double decay, con
   return std::nullopt;
 }
 
+/// Whether arcs between their vertices join all loops into one.
+bool are_connected(const std::vector<std::vector<int>>& loops, const std::vector<std::pair<int, int>>& arcs) {
+  const auto loop_of = [&](int v) {
+    return static_cast<std::size_t>(
+        std::find_if(loops.begin(), loops.end(),
+                     [v](const auto& loop) { return std::find(loop.begin(), loop.end(), v) != loop.end(); }) -
+        loops.begin());
+  };
+  std::vector<bool> reached(loops.size(), false);
+  reached[0] = true;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [from, to] : arcs) {
+      const std::size_t p = loop_of(from), q = loop_of(to);
+      if (reached[p] == reached[q]) continue;
+      reached[p] = reached[q] = grows = true;
+    }
+  }
+  return std::find(reached.begin(), reached.end(), false) == reached.end();
+}
+
 }  // namespace
 
 const Patch& FoldTriangulator::triangulate(const Lattice& lattice, const FoldCell& cell, std::span<const Loop> loops) {
@@ -85,14 +106,16 @@ bool FoldTriangulator::assign_loops(const FoldCell& cell, std::span<const Loop> 
 }
 
 bool FoldTriangulator::triangulate_component(const FoldComponent& component, std::vector<Polygon> polygons) {
-  int arcs = 0;
+  const std::vector<Polygon> loops = polygons;
+  Arcs arcs;
   if (component.fold_axis >= 0 && !cut_along_folds(component.fold_axis, polygons, arcs)) return false;
-  // Discs glued along arcs: the Euler number of the whole. Loops still apart are one surface only if it is a disc.
-  if (static_cast<int>(polygons.size()) - arcs != component.chi) return false;
+  // Discs glued along arcs: connected, and with this Euler number and these loops it is the surface that was proven.
+  if (static_cast<int>(polygons.size()) - static_cast<int>(arcs.size()) != component.chi) return false;
+  if (!are_connected(loops, arcs)) return false;
   return std::all_of(polygons.begin(), polygons.end(), [&](const Polygon& p) { return triangulate_polygon(p); });
 }
 
-bool FoldTriangulator::cut_along_folds(int axis, std::vector<Polygon>& polygons, int& arcs) {
+bool FoldTriangulator::cut_along_folds(int axis, std::vector<Polygon>& polygons, Arcs& arcs) {
   std::vector<int> open;
   for (const Polygon& polygon : polygons) {
     for (int v : polygon) {
@@ -110,7 +133,7 @@ bool FoldTriangulator::cut_along_folds(int axis, std::vector<Polygon>& polygons,
     if (!arc) return false;
     const int to = arc->back();
     open.erase(std::find(open.begin(), open.end(), to));
-    ++arcs;
+    arcs.emplace_back(from, to);
     const auto p = find_polygon(from), q = find_polygon(to);
     Polygon first = *p, second = *q;
     std::rotate(first.begin(), std::find(first.begin(), first.end(), from), first.end());

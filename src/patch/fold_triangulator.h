@@ -43,7 +43,8 @@ class FoldTriangulator {
 
   bool assign_loops(const FoldCell& cell, std::span<const Loop> loops);
   bool triangulate_component(const FoldComponent& component, std::vector<Polygon> polygons);
-  bool cut_along_folds(int axis, std::vector<Polygon>& polygons, int& arcs);
+  using Arcs = std::vector<std::pair<int, int>>;   ///< ends of fold arcs
+  bool cut_along_folds(int axis, std::vector<Polygon>& polygons, Arcs& arcs);
   std::optional<Polygon> fold_arc(int axis, int from, const std::vector<int>& fold_vertices);
   bool triangulate_polygon(const Polygon& polygon);
   double fan_cost(const Polygon& polygon, int apex) const;
