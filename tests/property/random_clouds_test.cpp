@@ -1,5 +1,5 @@
-// Molecules of any kind: the mesh is fit for a solver, and its topology depends neither on the spacing nor on how the
-// molecule is turned.
+// Molecules of any kind: the mesh is fit for a solver, and its topology depends neither on the spacing nor on how
+// the molecule is turned.
 #include <string>
 
 #include "catch2.h"
@@ -142,12 +142,14 @@ TEST_CASE("random clouds at spacings up to 5 A, larger than the atoms") {
 
 TEST_CASE("atoms on a grid, lined up with the lattice") {
   const Seen seen = run(3000, 15, [](Random& random, Problem& p) {
-    const double step = 0.5 * static_cast<double>(random.integer(2, 8)), radius = 0.5 * static_cast<double>(random.integer(2, 5));
+    const double step = 0.5 * static_cast<double>(random.integer(2, 8)),
+                 radius = 0.5 * static_cast<double>(random.integer(2, 5));
     const auto nx = random.integer(1, 3), ny = random.integer(1, 3), nz = random.integer(1, 4);
     for (std::int64_t x = 0; x < nx; ++x) {
       for (std::int64_t y = 0; y < ny; ++y) {
         for (std::int64_t z = 0; z < nz; ++z) {
-          p.atoms.push_back({step * static_cast<double>(x), step * static_cast<double>(y), step * static_cast<double>(z), radius, 0});
+          p.atoms.push_back({step * static_cast<double>(x), step * static_cast<double>(y),
+                             step * static_cast<double>(z), radius, 0});
         }
       }
     }
@@ -187,7 +189,8 @@ TEST_CASE("symmetric molecules centred on the origin") {
     const double size = random.uniform(1.0, 5.0), radius = random.uniform(0.8, 2.4);
     const auto kind = random.integer(0, 2);
     if (kind == 0) {
-      for (int i = 0; i < 8; ++i) p.atoms.push_back({i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size, radius, 0});
+      for (int i = 0; i < 8; ++i)
+        p.atoms.push_back({i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size, radius, 0});
     } else if (kind == 1) {
       for (int i = 0; i < 6; ++i) {
         Vec3 at{};
@@ -195,7 +198,8 @@ TEST_CASE("symmetric molecules centred on the origin") {
         p.atoms.push_back({at[0], at[1], at[2], radius, 0});
       }
     } else {
-      p.atoms = atom_ring(static_cast<int>(random.integer(3, 16)), size, radius, static_cast<int>(random.integer(0, 2)));
+      p.atoms =
+          atom_ring(static_cast<int>(random.integer(3, 16)), size, radius, static_cast<int>(random.integer(0, 2)));
     }
     if (random.integer(0, 2) == 0) p.atoms.push_back({0, 0, 0, radius, 0});
   });

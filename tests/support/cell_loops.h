@@ -11,8 +11,8 @@
 
 namespace gaussmesh::testing {
 
-/// Loops of the cell of level 0 at `key`, counter-clockwise round the surface seen from the solvent, as the pipeline
-/// makes them. Vertices are numbered from 0 on. @param fold_axes as in FaceTracer::trace
+/// Loops of the cell of level 0 at `key`, counter-clockwise round the surface seen from the solvent, as the
+/// pipeline makes them. Vertices are numbered from 0 on. @param fold_axes as in FaceTracer::trace
 inline std::vector<Loop> cell_loops(const GaussianField& field, const Lattice& lattice, const CellKey& key,
                                     unsigned fold_axes = 0) {
   const CoordPoint lo = lattice.point(key.lo), hi = lattice.point(cell_hi(key));

@@ -38,8 +38,8 @@ inline TriangleMesh patch_mesh(const Patch& patch, const std::vector<Loop>& loop
   return mesh;
 }
 
-/// Checks that the patch has exactly the loops as its boundary, that inner edges join two triangles turned alike and lie
-/// in no face of the cell, and that no two triangles meet.
+/// Checks that the patch has exactly the loops as its boundary, that inner edges join two triangles turned alike
+/// and lie in no face of the cell, and that no two triangles meet.
 inline PatchFacts check_patch(const Patch& patch, const std::vector<Loop>& loops) {
   REQUIRE(patch.complete);
   std::map<std::uint32_t, std::uint32_t> number;

@@ -37,10 +37,10 @@ class Random {
 /// What random molecules are made of.
 struct CloudOptions {
   int atoms = 10;
-  double size = 6.0;           ///< edge of the cube around the origin that the centres are in (A)
-  double least_radius = 0.8;   ///< A
+  double size = 6.0;          ///< edge of the cube around the origin that the centres are in (A)
+  double least_radius = 0.8;  ///< A
   double largest_radius = 2.2;
-  double zero_radii = 0.1;     ///< share of atoms of radius 0
+  double zero_radii = 0.1;  ///< share of atoms of radius 0
 };
 
 inline std::vector<Atom> random_cloud(Random& random, const CloudOptions& options) {

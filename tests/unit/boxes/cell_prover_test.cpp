@@ -31,7 +31,8 @@ std::string refute(const CellCertificate& certificate, const ExactField& exact, 
     const std::size_t next = i + stride;
     if (inside[i] == inside[next]) continue;
     if (inside[next] != (certificate.sign > 0)) return "the surface is crossed against the certificate";
-    const Vec3 on = inside[i] ? surface_between(exact, points[i], points[next]) : surface_between(exact, points[next], points[i]);
+    const Vec3 on = inside[i] ? surface_between(exact, points[i], points[next])
+                              : surface_between(exact, points[next], points[i]);
     const double slope = static_cast<double>(exact.gradient(on)[axis]);
     if (slope * certificate.sign <= 0.0) return "the slope on the surface is against the certificate";
   }
@@ -144,7 +145,8 @@ TEST_CASE("walking bricks finds every cell that the surface passes through, and 
     std::sort(cells.begin(), cells.end());
     CHECK(std::adjacent_find(cells.begin(), cells.end()) == cells.end());
     for (int i = 0; i < 1500; ++i) {
-      const Vec3 p = random_point(random, box_around({0, 0, 0}, 4.0)), q = random_point(random, box_around({0, 0, 0}, 6.0));
+      const Vec3 p = random_point(random, box_around({0, 0, 0}, 4.0)),
+                 q = random_point(random, box_around({0, 0, 0}, 6.0));
       if (exact.psi(p) < 0.0L || exact.psi(q) >= 0.0L) continue;
       const CellKey cell = cell_at(lattice, surface_between(exact, p, q));
       REQUIRE(std::binary_search(cells.begin(), cells.end(), cell.lo));

@@ -30,7 +30,8 @@ Vec3 random_direction(Random& random) {
 }
 
 /// Points of the surface on rays: every change of sign between samples along them.
-std::vector<Vec3> march(const ExactField& exact, const Vec3& from, const Vec3& direction, double length, int samples) {
+std::vector<Vec3> march(const ExactField& exact, const Vec3& from, const Vec3& direction, double length,
+                        int samples) {
   std::vector<Vec3> found;
   const auto at = [&](int i) {
     Vec3 p = from;
@@ -40,7 +41,8 @@ std::vector<Vec3> march(const ExactField& exact, const Vec3& from, const Vec3& d
   bool inside = exact.psi(from) >= 0.0L;
   for (int i = 1; i <= samples; ++i) {
     const bool next = exact.psi(at(i)) >= 0.0L;
-    if (next != inside) found.push_back(next ? surface_between(exact, at(i), at(i - 1)) : surface_between(exact, at(i - 1), at(i)));
+    if (next != inside)
+      found.push_back(next ? surface_between(exact, at(i), at(i - 1)) : surface_between(exact, at(i - 1), at(i)));
     inside = next;
   }
   return found;
@@ -62,7 +64,8 @@ TEST_CASE("every point of the surface found by marching along rays lies in a bri
     const double spacing = random.logarithmic(0.2, 3.0);
     CAPTURE(decay, isovalue, spacing);
     std::vector<Atom> atoms = random_cloud(random, {20, 10.0, 0.5, 2.5, 0.2});
-    if (cloud % 3 == 0) for (Atom& a : atoms) a.y += 900000.0;
+    if (cloud % 3 == 0)
+      for (Atom& a : atoms) a.y += 900000.0;
     const Lattice lattice = lattice_of(spacing);
     const auto bricks = find_bricks(GaussianField(atoms, decay, isovalue), lattice);
     CHECK(std::is_sorted(bricks.begin(), bricks.end()));
@@ -94,7 +97,8 @@ TEST_CASE("two atoms 10^6 A apart give the bricks of two spheres") {
 }
 
 TEST_CASE("the number of bricks grows with the area of a sphere, not with its volume") {
-  const std::size_t small = count_bricks({{0, 0, 0, 40.0, 0}}, 0.5), large = count_bricks({{0, 0, 0, 80.0, 0}}, 0.5);
+  const std::size_t small = count_bricks({{0, 0, 0, 40.0, 0}}, 0.5),
+                    large = count_bricks({{0, 0, 0, 80.0, 0}}, 0.5);
   CHECK(static_cast<double>(large) / static_cast<double>(small) == Approx(4.0).epsilon(0.1));
   // A plane of area A crosses about 1.5 A / size^2 cubes of a lattice.
   const double area = 4.0 * std::numbers::pi * 6400.0, brick_face = 16.0;

@@ -26,7 +26,8 @@ std::vector<PlanePoint> grid(Coord size) {
 Coord cross(const PlanePoint& u, const PlanePoint& v) { return u.a * v.b - u.b * v.a; }
 PlanePoint minus(const PlanePoint& p, const PlanePoint& q) { return {p.a - q.a, p.b - q.b}; }
 
-/// Whether p + s (q - p) = r + t (u - r) for some s, t in [0, 1], by Cramer's rule; small coordinates, nothing parallel.
+/// Whether p + s (q - p) = r + t (u - r) for some s, t in [0, 1], by Cramer's rule; small coordinates, nothing
+/// parallel.
 bool cross_in_one_point(const PlanePoint& p, const PlanePoint& q, const PlanePoint& r, const PlanePoint& u) {
   Coord det = cross(minus(q, p), minus(u, r));
   Coord s = cross(minus(r, p), minus(u, r)), t = cross(minus(r, p), minus(q, p));
@@ -34,8 +35,8 @@ bool cross_in_one_point(const PlanePoint& p, const PlanePoint& q, const PlanePoi
   return s >= 0 && s <= det && t >= 0 && t <= det;
 }
 
-/// Whether x is one of the points p + (q - p) n / 12. On a grid of 4 x 4 points segments on one line, if they meet at
-/// all, have a grid point in common.
+/// Whether x is one of the points p + (q - p) n / 12. On a grid of 4 x 4 points segments on one line, if they meet
+/// at all, have a grid point in common.
 bool is_on(const PlanePoint& p, const PlanePoint& q, const PlanePoint& x) {
   for (Coord n = 0; n <= 12; ++n) {
     if (12 * (x.a - p.a) == n * (q.a - p.a) && 12 * (x.b - p.b) == n * (q.b - p.b)) return true;
@@ -93,8 +94,8 @@ TEST_CASE("segments_meet agrees with Cramer's rule on all segments of a small gr
             expected = is_on(p, q, r) || is_on(p, q, u) || is_on(r, u, p) || is_on(r, u, q);
           }
           if (segments_meet(p, q, r, u) != expected) {
-            FAIL(p.a << ' ' << p.b << ", " << q.a << ' ' << q.b << " and " << r.a << ' ' << r.b << ", " << u.a << ' '
-                     << u.b << ": expected " << expected);
+            FAIL(p.a << ' ' << p.b << ", " << q.a << ' ' << q.b << " and " << r.a << ' ' << r.b << ", " << u.a
+                     << ' ' << u.b << ": expected " << expected);
           }
           ++(expected ? meeting : apart);
         }

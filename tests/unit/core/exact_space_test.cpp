@@ -80,7 +80,8 @@ TEST_CASE("orientation is exact one unit off a plane, at any size of coordinates
     const Coord size = Coord{1} << bits, most = size / 32;
     for (int n = 0; n < 20000; ++n) {
       // In the basis u, v, w the volume is that of the coefficients times det(u, v, w).
-      const CoordPoint u = random_point(random, -4, 4), v = random_point(random, -4, 4), w = random_point(random, -4, 4);
+      const CoordPoint u = random_point(random, -4, 4), v = random_point(random, -4, 4),
+                       w = random_point(random, -4, 4);
       const CoordPoint p = random_point(random, -size / 4, size / 4);
       const Coord i = random.integer(1, most), j = random.integer(1, most), k = random.integer(-1, 1);
       const CoordPoint q = combined(p, i, u, random.integer(-1, 1), v, 0, w);

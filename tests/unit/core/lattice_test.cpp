@@ -27,7 +27,8 @@ const Lattice kLattice{122070, {185965001, 207105002, -118035003}};
 }  // namespace
 
 TEST_CASE("a coordinate in A is what a reader makes of its nine decimals") {
-  for (const Coord c : {Coord{0}, Coord{1}, Coord{-1}, Coord{999999999}, Coord{-1000000001}, Coord{1234567890123456}}) {
+  for (const Coord c :
+       {Coord{0}, Coord{1}, Coord{-1}, Coord{999999999}, Coord{-1000000001}, Coord{1234567890123456}}) {
     CHECK(to_angstrom(c) == std::strtod(decimal(c).c_str(), nullptr));
   }
   const std::uint64_t seed = 1;
@@ -49,7 +50,8 @@ TEST_CASE("neighbouring coordinates stay apart in A within the limits of coordin
 TEST_CASE("lattice planes are equally far apart, also below zero") {
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(kLattice.plane(axis, 0) == kLattice.offset[axis]);
-    for (const std::int64_t n : {std::int64_t{-1000000000}, -kFinePerCell - 1, std::int64_t{-1}, std::int64_t{0}, std::int64_t{1}, kFinePerCell, std::int64_t{1000000000}}) {
+    for (const std::int64_t n : {std::int64_t{-1000000000}, -kFinePerCell - 1, std::int64_t{-1}, std::int64_t{0},
+                                 std::int64_t{1}, kFinePerCell, std::int64_t{1000000000}}) {
       CHECK(kLattice.plane(axis, n + 1) - kLattice.plane(axis, n) == kLattice.step);
     }
   }

@@ -146,9 +146,9 @@ TEST_CASE("lists have the same bits for any order of the atoms in the file") {
   CAPTURE(seed);
   Random random(seed);
   std::vector<Atom> atoms = random_cloud(random, {200, 15.0, 0.5, 2.2, 0.1});
-  for (int i = 0; i < 20; ++i) atoms.push_back(atoms[7 * i]);                      // doubles,
-  for (int i = 0; i < 20; ++i) atoms.push_back({atoms[5 * i].x, 0, 0, 1.5, 0});    // ties in x,
-  for (int i = 0; i < 5; ++i) atoms.push_back({1, 1, 1, 0.5 * i, 0});              // and in all but the radius
+  for (int i = 0; i < 20; ++i) atoms.push_back(atoms[7 * i]);                    // doubles,
+  for (int i = 0; i < 20; ++i) atoms.push_back({atoms[5 * i].x, 0, 0, 1.5, 0});  // ties in x,
+  for (int i = 0; i < 5; ++i) atoms.push_back({1, 1, 1, 0.5 * i, 0});            // and in all but the radius
   const GaussianField field(atoms, 0.6, kIsovalue);
   for (int order = 0; order < 5; ++order) {
     std::vector<Atom> shuffled = atoms;

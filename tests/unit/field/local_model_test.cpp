@@ -44,14 +44,15 @@ std::vector<Vec3> points_of(Random& random, const Box& part) {
   return points;
 }
 
-/// Widths of value() over boxes around p, each half as large as the one before, and by how much they exceed the width
-/// of the exact values there.
+/// Widths of value() over boxes around p, each half as large as the one before, and by how much they exceed the
+/// width of the exact values there.
 struct Widths {
   std::vector<double> whole;
   std::vector<double> excess;
 };
 
-Widths widths_around(const GaussianField& field, const ExactField& exact, const Vec3& p, double size, int halvings) {
+Widths widths_around(const GaussianField& field, const ExactField& exact, const Vec3& p, double size,
+                     int halvings) {
   Widths widths;
   for (int i = 0; i <= halvings; ++i, size *= 0.5) {
     const Box box = box_around(p, 0.5 * size);
@@ -170,7 +171,8 @@ TEST_CASE("without atoms left out slope() holds everywhere in the box, surface o
 }
 
 TEST_CASE("where the slope is largest and about to change its sign, boxes of every size are right about it") {
-  // Two atoms at +-a with 2 d a^2 = 1.2: psi' = 2 d (a tanh(2 d a x) - x) along their axis rises a little, then falls.
+  // Two atoms at +-a with 2 d a^2 = 1.2: psi' = 2 d (a tanh(2 d a x) - x) along their axis rises a little, then
+  // falls.
   const double decay = 0.5, a = std::sqrt(1.2);
   std::size_t claims = 0, boxes = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -100,7 +100,13 @@ TEST_CASE("the cheapest of all triangulations is found, for random costs and for
         least = std::min(least, cost);
       }
       const double found = minimal.solve(
-          n, [&](int i, int j) { return free.at({i, j}); }, [&](int i, int j, int k) { return costs.at({i, j, k}); });
+          n,
+          [&](int i, int j) {
+            return free.at({i, j});
+          },
+          [&](int i, int j, int k) {
+            return costs.at({i, j, k});
+          });
       if (least == kImpossible) {
         CHECK(found == kImpossible);
         ++impossible;

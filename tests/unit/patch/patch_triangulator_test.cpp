@@ -2,9 +2,9 @@
 
 #include "boxes/cell_prover.h"
 #include "catch2.h"
+#include "patch/triangle_shape.h"
 #include "support/cell_loops.h"
 #include "support/fields.h"
-#include "patch/triangle_shape.h"
 #include "support/patch_checks.h"
 
 using namespace gaussmesh;
@@ -55,7 +55,8 @@ TEST_CASE("a point lies on the faces whose planes it shares") {
 TEST_CASE("convex loops on the outline of a cell: n - 2 triangles, no new points") {
   CHECK(triangulate({loop_of(kSquare, 0)}).triangles == 2);
   CHECK(triangulate({loop_of({{0.4, 0, 0.5}, {0, 0.3, 0.5}, {0, 0, 0.6}}, 0)}).triangles == 1);
-  const PatchFacts six = triangulate({loop_of({{0.2, 0, 0.5}, {0.7, 0, 0.9}, {1, 0.3, 0.5}, {1, 1, 0.5}, {0.4, 1, 0.5}, {0, 0.6, 0.2}}, 0)});
+  const PatchFacts six = triangulate(
+      {loop_of({{0.2, 0, 0.5}, {0.7, 0, 0.9}, {1, 0.3, 0.5}, {1, 1, 0.5}, {0.4, 1, 0.5}, {0, 0.6, 0.2}}, 0)});
   CHECK(six.triangles == 4);
   CHECK(six.chi == 1);
 }
@@ -71,7 +72,8 @@ TEST_CASE("a hole where a curve closes in the upper face is left open") {
   for (const double size : {0.3, 0.05}) {
     // Clockwise seen from above.
     const double a = 0.5 - size, b = 0.5 + size;
-    const PatchFacts facts = triangulate({loop_of(kSquare, 0), loop_of({{a, a, 1}, {a, b, 1}, {b, b, 1}, {b, a, 1}}, 4)});
+    const PatchFacts facts =
+        triangulate({loop_of(kSquare, 0), loop_of({{a, a, 1}, {a, b, 1}, {b, b, 1}, {b, a, 1}}, 4)});
     CHECK(facts.triangles == 8);
     CHECK(facts.chi == 0);
     CHECK(facts.boundary == 8);
@@ -79,8 +81,9 @@ TEST_CASE("a hole where a curve closes in the upper face is left open") {
 }
 
 TEST_CASE("a hole in a face is not joined to the corner next to it that is on the same face") {
-  const PatchFacts facts = triangulate({loop_of({{0.5, 0, 1}, {1, 0.1, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}, {0, 0.1, 0.5}}, 0),
-                                        loop_of({{0.5, 0.2, 1}, {0.4, 0.4, 1}, {0.6, 0.4, 1}}, 5)});
+  const PatchFacts facts =
+      triangulate({loop_of({{0.5, 0, 1}, {1, 0.1, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}, {0, 0.1, 0.5}}, 0),
+                   loop_of({{0.5, 0.2, 1}, {0.4, 0.4, 1}, {0.6, 0.4, 1}}, 5)});
   CHECK(facts.chi == 0);
 }
 
@@ -117,12 +120,15 @@ TEST_CASE("a loop all in one face needs a point inside the cell") {
 TEST_CASE("loops that are no boundary of a surface over the square are refused") {
   const GaussianField field(kFlat, 0.6, 1.0);
   PatchTriangulator triangulator(field);
-  const auto complete = [&](const std::vector<Loop>& loops) { return triangulator.triangulate(kLo, kHi, 2, -1, loops).complete; };
+  const auto complete = [&](const std::vector<Loop>& loops) {
+    return triangulator.triangulate(kLo, kHi, 2, -1, loops).complete;
+  };
   CHECK(complete({loop_of(kSquare, 0)}));
-  CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {1, 1, 0.5}}, 0)}));                              // two corners
-  CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {0, 1, 0.5}, {1, 1, 0.5}, {1, 0, 0.5}}, 0)}));    // clockwise
-  CHECK_FALSE(complete({loop_of(kSquare, 0), loop_of({{0.5, 0.5, 1}, {0.5, 1.5, 1}, {1.5, 0.5, 1}}, 4)}));  // crossing
-  CHECK_FALSE(complete({loop_of({{0.1, 0.2, 1}, {0.2, 0.4, 1}, {0.3, 0.2, 1}}, 0)}));           // a hole in nothing
+  CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {1, 1, 0.5}}, 0)}));                            // two corners
+  CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {0, 1, 0.5}, {1, 1, 0.5}, {1, 0, 0.5}}, 0)}));  // clockwise
+  CHECK_FALSE(
+      complete({loop_of(kSquare, 0), loop_of({{0.5, 0.5, 1}, {0.5, 1.5, 1}, {1.5, 0.5, 1}}, 4)}));  // crossing
+  CHECK_FALSE(complete({loop_of({{0.1, 0.2, 1}, {0.2, 0.4, 1}, {0.3, 0.2, 1}}, 0)}));  // a hole in nothing
 }
 
 TEST_CASE("the same loops along every axis and in both directions") {

@@ -13,8 +13,11 @@ namespace {
 
 struct Sample {
   Sample(std::uint64_t seed, double spacing)
-      : random(seed), atoms(random_cloud(random, {20, 7.0, 0.8, 2.2, 0.1})), field(atoms, 0.6, 1.2),
-        lattice(lattice_of(spacing)), store(field, lattice, 2) {}
+      : random(seed),
+        atoms(random_cloud(random, {20, 7.0, 0.8, 2.2, 0.1})),
+        field(atoms, 0.6, 1.2),
+        lattice(lattice_of(spacing)),
+        store(field, lattice, 2) {}
   Random random;
   std::vector<Atom> atoms;
   GaussianField field;
@@ -85,7 +88,8 @@ TEST_CASE("every lattice edge that the surface crosses is in the store, outside 
   for (std::int64_t i = -7; i < 7; ++i) {
     for (std::int64_t j = -7; j < 7; ++j) {
       for (std::int64_t k = -7; k < 7; ++k) {
-        const FineIndex lo = {middle.lo[0] + i * kFinePerCell, middle.lo[1] + j * kFinePerCell, middle.lo[2] + k * kFinePerCell};
+        const FineIndex lo = {middle.lo[0] + i * kFinePerCell, middle.lo[1] + j * kFinePerCell,
+                              middle.lo[2] + k * kFinePerCell};
         const bool from = exact.psi(to_angstrom(s.lattice.point(lo))) >= 0.0L;
         for (int axis = 0; axis < 3; ++axis) {
           if (from == (exact.psi(to_angstrom(s.lattice.point(moved(lo, axis, kFinePerCell)))) >= 0.0L)) continue;

@@ -77,7 +77,8 @@ TEST_CASE("area and volume of a sphere converge as the square of the spacing") {
   const double radius = sphere_radius(3.0, 0.6, 1.7);
   double area_error[3], volume_error[3];
   for (int i = 0; i < 3; ++i) {
-    const MeshCheck check = mesh_surface({{0.1, 0.2, 0.3, 3.0, 0}}, options(0.6, 1.7, std::ldexp(0.8, -i))).report.check;
+    const MeshCheck check =
+        mesh_surface({{0.1, 0.2, 0.3, 3.0, 0}}, options(0.6, 1.7, std::ldexp(0.8, -i))).report.check;
     area_error[i] = 1.0 - check.area / sphere_area(radius);
     volume_error[i] = 1.0 - check.volume / sphere_volume(radius);
   }
@@ -93,7 +94,8 @@ TEST_CASE("area and volume of a sphere converge as the square of the spacing") {
 TEST_CASE("the number of triangles follows the spacing") {
   const double radius = sphere_radius(4.0, 0.6, 1.7);
   for (const double spacing : {0.25, 0.5, 1.0}) {
-    const auto triangles = static_cast<double>(mesh_surface({{0, 0, 0, 4.0, 0}}, options(0.6, 1.7, spacing)).mesh.triangles.size());
+    const auto triangles =
+        static_cast<double>(mesh_surface({{0, 0, 0, 4.0, 0}}, options(0.6, 1.7, spacing)).mesh.triangles.size());
     const double per_cell_face = triangles * spacing * spacing / sphere_area(radius);
     CHECK(per_cell_face > 1.5);
     CHECK(per_cell_face < 6.0);
@@ -204,8 +206,10 @@ TEST_CASE("two atoms drawn together: two components up to the critical level, on
 TEST_CASE("the critical distance of two atoms is where value_between is c") {
   const double decay = 0.5, r = 1.7, isovalue = 1.1;
   const double critical = 2.0 * std::sqrt(r * r - std::log(0.5 * isovalue) / decay);
-  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical - 1e-5, r), options(decay, isovalue, 0.8))) == kOneBall);
-  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical + 1e-5, r), options(decay, isovalue, 0.8))) == kTwoBalls);
+  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical - 1e-5, r), options(decay, isovalue, 0.8))) ==
+        kOneBall);
+  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical + 1e-5, r), options(decay, isovalue, 0.8))) ==
+        kTwoBalls);
 }
 
 TEST_CASE("a ring of atoms is a torus, lying, standing and seen edge-on") {
@@ -250,7 +254,8 @@ TEST_CASE("a neck between two atoms keeps them together at every spacing; folds 
       for (const double spacing : {0.2, 0.5, 1.2, 2.5}) {
         CAPTURE(share, spacing);
         const double isovalue = share * value_between(distance, r, decay);
-        const MeshResult result = mesh_surface(pair_along(direction, distance, r), options(decay, isovalue, spacing));
+        const MeshResult result =
+            mesh_surface(pair_along(direction, distance, r), options(decay, isovalue, spacing));
         check_good(result);
         CHECK(topology(result) == kOneBall);
         cut += result.report.cells_cut_by_folds;
@@ -332,9 +337,13 @@ TEST_CASE("a maximum at c, a surface that is one point, is no surface that can b
 TEST_CASE("phi below c everywhere: nothing to mesh, and that is said") {
   const double highest = std::exp(0.6 * 2.25);  // of one atom, at its centre
   CHECK_THROWS_AS(mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1.001 * highest, 0.5)), CannotMeshError);
-  CHECK_THAT(message_of([&] { mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1.001 * highest, 0.5)); }),
+  CHECK_THAT(message_of([&] {
+               mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1.001 * highest, 0.5));
+             }),
              Catch::Matchers::ContainsSubstring("nothing to mesh"));
-  CHECK_THAT(message_of([&] { mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1e9, 0.5)); }),
+  CHECK_THAT(message_of([&] {
+               mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1e9, 0.5));
+             }),
              Catch::Matchers::ContainsSubstring("nothing to mesh"));
   // A sphere much smaller than a cell is not nothing.
   const MeshResult small = mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 0.9999 * highest, 2.0));
@@ -367,8 +376,9 @@ TEST_CASE("options out of their range are refused by name") {
 TEST_CASE("atoms that cannot be are refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_AS(mesh_surface({}, {}), InputError);
-  for (const Atom& atom : {Atom{0, 0, 0, -1.0, 0}, Atom{0, 0, 0, nan, 0}, Atom{0, 0, 0, infinity, 0}, Atom{nan, 0, 0, 1, 0},
-                           Atom{0, infinity, 0, 1, 0}, Atom{0, 0, 2e6, 1, 0}, Atom{0, 0, 0, 2e5, 0}}) {
+  for (const Atom& atom :
+       {Atom{0, 0, 0, -1.0, 0}, Atom{0, 0, 0, nan, 0}, Atom{0, 0, 0, infinity, 0}, Atom{nan, 0, 0, 1, 0},
+        Atom{0, infinity, 0, 1, 0}, Atom{0, 0, 2e6, 1, 0}, Atom{0, 0, 0, 2e5, 0}}) {
     CHECK_THROWS_AS(mesh_surface({{0, 0, 0, 1.5, 0}, atom}, {}), InputError);
   }
 }

@@ -171,7 +171,9 @@ TEST_CASE("edges of many sizes through clouds have the roots that a dense look a
       for (int n = 1; n <= kSamples; ++n) {
         after[axis] = start[axis] + (end - start[axis]) * n / kSamples;
         const bool in = exact.psi(before) >= 0.0L, out = exact.psi(after) < 0.0L;
-        if (in == out) expected.push_back((in ? surface_between(exact, before, after) : surface_between(exact, after, before))[axis]);
+        if (in == out)
+          expected.push_back(
+              (in ? surface_between(exact, before, after) : surface_between(exact, after, before))[axis]);
         before = after;
       }
       const auto roots = find_roots(field, start, axis, end);
@@ -201,7 +203,8 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
       for (const EdgeRoot& root : find_roots(field, start, axis, start[axis] + 2.0)) {
         const Vec3 p = to_angstrom(root.point.position);
         const auto gradient = exact.gradient(p);
-        // To first order, along the edge: half a unit of the coordinates, and what rounding of phi moves the root by.
+        // To first order, along the edge: half a unit of the coordinates, and what rounding of phi moves the root
+        // by.
         NearAtoms near;
         field.collect_near({p, p}, near);
         const double slope = static_cast<double>(std::abs(gradient[axis]));

@@ -60,11 +60,13 @@ Traced trace(const GaussianField& field, const Face& face, unsigned fold_axes = 
   for (int side = 0; side < 4; ++side) {
     const auto [lo, axis] = edges[side];
     for (const EdgeRoot& root : finder.find(near, model, axis, lo, face.hi[axis])) {
-      result.roots.push_back({static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.side});
+      result.roots.push_back(
+          {static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.side});
     }
   }
   FaceTracer tracer(field, kLattice);
-  result.curves = tracer.trace(face.axis, face.lo, face.hi, certify_face(model, face.axis, box), result.roots, fold_axes);
+  result.curves =
+      tracer.trace(face.axis, face.lo, face.hi, certify_face(model, face.axis, box), result.roots, fold_axes);
   return result;
 }
 
@@ -157,12 +159,14 @@ TEST_CASE("a corner of a face cut off by a sphere is one chord, with the molecul
   const ExactField exact(atoms, 0.6, 1.0);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double turn : {1.0, -1.0}) {
-      const Face face = turn > 0 ? face_at(axis, 0.3, 1.0, 1.9, 1.0, 1.9) : face_at(axis, 0.3, -1.9, -1.0, -1.9, -1.0);
+      const Face face =
+          turn > 0 ? face_at(axis, 0.3, 1.0, 1.9, 1.0, 1.9) : face_at(axis, 0.3, -1.9, -1.0, -1.9, -1.0);
       const Traced traced = trace(field, face);
       REQUIRE(traced.curves.links.size() == 1);
       CHECK(traced.curves.points.empty());
       check_curves(traced, face, exact);
-      const CoordPoint p = traced.position(traced.curves.links[0].from), q = traced.position(traced.curves.links[0].to);
+      const CoordPoint p = traced.position(traced.curves.links[0].from),
+                       q = traced.position(traced.curves.links[0].to);
       // Round the origin counter-clockwise.
       const int a = first_axis(axis), b = second_axis(axis);
       CHECK(along(p, a) * along(q, b) - along(p, b) * along(q, a) > 0.0);
@@ -181,8 +185,9 @@ TEST_CASE("an arc back to its own edge keeps its turning point") {
       CAPTURE(depth);
       const double cut = radius - depth;
       const double half = std::sqrt(radius * radius - cut * cut);
-      for (const Face& face : {face_at(axis, 0.3, cut, cut + 1.0, -2.0, 2.1), face_at(axis, 0.3, -2.0, 2.1, cut, cut + 1.0),
-                               face_at(axis, 0.3, -cut - 1.0, -cut, -2.0, 2.1), face_at(axis, 0.3, -2.0, 2.1, -cut - 1.0, -cut)}) {
+      for (const Face& face :
+           {face_at(axis, 0.3, cut, cut + 1.0, -2.0, 2.1), face_at(axis, 0.3, -2.0, 2.1, cut, cut + 1.0),
+            face_at(axis, 0.3, -cut - 1.0, -cut, -2.0, 2.1), face_at(axis, 0.3, -2.0, 2.1, -cut - 1.0, -cut)}) {
         const Traced traced = trace(field, face);
         REQUIRE(traced.roots.size() == 2);
         CHECK(traced.curves.links.size() >= 2);
@@ -191,7 +196,8 @@ TEST_CASE("an arc back to its own edge keeps its turning point") {
         double farthest = 0.0;
         for (const SurfacePoint& p : traced.curves.points) {
           CHECK(radius_of(p.position, axis) == Approx(radius).margin(2e-9));
-          for (int k : {first_axis(axis), second_axis(axis)}) farthest = std::max(farthest, std::abs(along(p.position, k)));
+          for (int k : {first_axis(axis), second_axis(axis)})
+            farthest = std::max(farthest, std::abs(along(p.position, k)));
         }
         // Within a fiftieth of the arc from where the circle is farthest.
         CHECK(radius - farthest < 0.04 * half * half / radius);
@@ -219,7 +225,8 @@ TEST_CASE("a circle that closes inside a face is found, whatever its size") {
       check_molecule_on_left(traced, face, exact);
       const double cut = to_angstrom(to_coord(height)), radius = std::sqrt((2.0 - cut) * (2.0 + cut));
       const double tolerance = 1e-9 + 1e-12 / radius;
-      for (const SurfacePoint& p : traced.curves.points) CHECK(radius_of(p.position, axis) == Approx(radius).margin(tolerance));
+      for (const SurfacePoint& p : traced.curves.points)
+        CHECK(radius_of(p.position, axis) == Approx(radius).margin(tolerance));
       // Counter-clockwise round the molecule.
       double area = 0.0;
       for (const Link& link : traced.curves.links) {
@@ -346,8 +353,10 @@ TEST_CASE("faces of clouds: every root ends one curve with the molecule on its l
     const GaussianField field(atoms, decay, 1.0);
     const ExactField exact(atoms, decay, 1.0);
     for (int i = 0; i < 5; ++i) {
-      const double a = random.uniform(-4.0, 2.0), b = random.uniform(-4.0, 2.0), size = random.logarithmic(0.3, 5.0);
-      const Face face = face_at(static_cast<int>(random.integer(0, 2)), random.uniform(-3.0, 3.0), a, a + size, b, b + size);
+      const double a = random.uniform(-4.0, 2.0), b = random.uniform(-4.0, 2.0),
+                   size = random.logarithmic(0.3, 5.0);
+      const Face face =
+          face_at(static_cast<int>(random.integer(0, 2)), random.uniform(-3.0, 3.0), a, a + size, b, b + size);
       const Traced traced = trace(field, face);
       check_curves(traced, face, exact);
       links += traced.curves.links.size();

@@ -1,5 +1,3 @@
-#include "gaussmesh/write_mesh.h"
-
 #include <unistd.h>
 
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include "core/lattice.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/write_mesh.h"
 #include "support/random.h"
 
 using namespace gaussmesh;
@@ -40,7 +39,8 @@ std::string read_file(const fs::path& path) {
 }
 
 TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {1.5, 0, 0}, {0, -2.000000001, 0}, {0.123456789, 0, 1000000}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  return {{{0, 0, 0}, {1.5, 0, 0}, {0, -2.000000001, 0}, {0.123456789, 0, 1000000}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ TEST_CASE("what is read back has the same bits") {
   TriangleMesh mesh;
   for (int i = 0; i < 20000; ++i) {
     Point p;
-    for (double& x : p) x = to_angstrom(random.integer(-1000000000000000, 1000000000000000) >> random.integer(0, 50));
+    for (double& x : p)
+      x = to_angstrom(random.integer(-1000000000000000, 1000000000000000) >> random.integer(0, 50));
     mesh.vertices.push_back(p);
   }
   for (std::uint32_t i = 0; i + 2 < 20000; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
@@ -78,7 +79,8 @@ TEST_CASE("what is read back has the same bits") {
 TEST_CASE("small negative coordinates keep their sign; there is no minus before zero") {
   const Folder folder;
   write_off({{{-1e-9, -0.0, 0.999999999}, {-0.5, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, folder / "n.off");
-  CHECK_THAT(read_file(folder / "n.off"), Catch::Matchers::ContainsSubstring("-0.000000001 0.000000000 0.999999999\n-0.500000000"));
+  CHECK_THAT(read_file(folder / "n.off"),
+             Catch::Matchers::ContainsSubstring("-0.000000001 0.000000000 0.999999999\n-0.500000000"));
 }
 
 TEST_CASE("an empty mesh is a legal file") {
