@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +28,11 @@ struct MeshComponent {
   bool closed = false;     ///< every edge in two triangles that turn the same way; if not, what is below is unset
   std::size_t depth = 0;   ///< number of other closed components that it lies inside of: odd for a cavity
   bool inverted = false;   ///< volume not positive at even depth, or not negative at odd depth; decided exactly
+  std::optional<std::uint32_t> parent;  ///< the innermost component that it lies inside of; none at depth 0
 };
+
+/// Stands for the component of a triangle that could not be judged.
+inline constexpr std::uint32_t kNoComponent = std::numeric_limits<std::uint32_t>::max();
 
 using RatioHistogram = std::array<std::size_t, 20>;  ///< bins of 0.05
 using AngleHistogram = std::array<std::size_t, 18>;  ///< bins of 10 degrees
@@ -47,6 +53,7 @@ struct MeshCheck {
   std::size_t intersecting_pairs = 0;    ///< pairs of triangles that meet in more than a shared edge or vertex
   std::vector<std::array<std::uint32_t, 2>> intersecting_examples;  ///< the first few of them
   std::vector<MeshComponent> components;  ///< outer and inner surfaces alike, largest area first
+  std::vector<std::uint32_t> component_of;  ///< of each triangle: its place in `components`, or kNoComponent
   std::size_t inverted_components = 0;    ///< outside of negative volume, or cavity of positive
   std::int64_t chi = 0;
   double area = 0.0;           ///< A^2

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <string>
 
 #include "gaussmesh/error.h"
@@ -121,8 +122,8 @@ MeshComponent describe(const ComponentTopology& topology, const ComponentGeometr
   component.area = geometry.area;
   component.volume = geometry.volume;
   component.closed = topology.closed;
-  component.depth = geometry.depth;
-  const int wanted_sign = geometry.depth % 2 == 0 ? 1 : -1;
+  component.depth = geometry.around.size();
+  const int wanted_sign = component.depth % 2 == 0 ? 1 : -1;
   component.inverted = topology.closed && geometry.volume_sign != wanted_sign;
   return component;
 }
@@ -135,24 +136,47 @@ void add_edge_topology(const EdgeTopology& topology, MeshCheck& check) {
   check.isolated_vertices = topology.isolated_vertices;
 }
 
-void add_components(const EdgeTopology& topology, const std::vector<ComponentGeometry>& geometry,
-                    MeshCheck& check) {
+/// The component that a component lies directly inside of: the one at the next smaller depth. Where components cross
+/// each other there may be none.
+std::optional<std::uint32_t> parent_of(const ComponentGeometry& component,
+                                       const std::vector<ComponentGeometry>& geometry) {
+  for (const std::uint32_t other : component.around)
+    if (geometry[other].around.size() + 1 == component.around.size()) return other;
+  return std::nullopt;
+}
+
+/// Numbers of the components, largest area first.
+std::vector<std::uint32_t> sort_by_area(const std::vector<ComponentGeometry>& geometry) {
+  std::vector<std::uint32_t> order(geometry.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return geometry[a].area > geometry[b].area; });
+  return order;
+}
+
+void add_components(EdgeTopology& topology, const std::vector<ComponentGeometry>& geometry, MeshCheck& check) {
+  const std::vector<std::uint32_t> order = sort_by_area(geometry);
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
   for (std::size_t c = 0; c < geometry.size(); ++c) {
-    check.components.push_back(describe(topology.components[c], geometry[c]));
-    check.chi += check.components[c].chi;
-    check.area += check.components[c].area;
-    check.volume += check.components[c].volume;
-    check.inverted_components += check.components[c].inverted;
+    check.chi += topology.components[c].chi;
+    check.area += geometry[c].area;
+    check.volume += geometry[c].volume;
   }
-  std::stable_sort(check.components.begin(), check.components.end(),
-                   [](const MeshComponent& a, const MeshComponent& b) { return a.area > b.area; });
+  for (const std::uint32_t c : order) {
+    check.components.push_back(describe(topology.components[c], geometry[c]));
+    check.inverted_components += check.components.back().inverted;
+    if (const auto parent = parent_of(geometry[c], geometry)) check.components.back().parent = place[*parent];
+  }
+  check.component_of = std::move(topology.component_of);
+  for (std::uint32_t& component : check.component_of) component = place[component];
 }
 
 /// Judges a mesh in which every triangle has three different vertices, all there, with exact coordinates.
 MeshCheck check_usable(const TriangleMesh& mesh) {
   MeshCheck check = measure_shape(mesh);
   check.degenerate_triangles = count_zero_areas(mesh);
-  const EdgeTopology topology = find_edge_topology(mesh);
+  EdgeTopology topology = find_edge_topology(mesh);
   add_edge_topology(topology, check);
   const TriangleTree tree(mesh);
   add_components(topology, measure_components(mesh, topology, tree), check);
@@ -168,6 +192,9 @@ MeshCheck check_usable_part(const TriangleMesh& mesh) {
   TriangleMesh part{mesh.vertices, {}};
   for (const std::uint32_t number : usable.numbers) part.triangles.push_back(mesh.triangles[number]);
   MeshCheck check = check_usable(part);
+  std::vector<std::uint32_t> component_of(mesh.triangles.size(), kNoComponent);
+  for (std::size_t i = 0; i < usable.numbers.size(); ++i) component_of[usable.numbers[i]] = check.component_of[i];
+  check.component_of = std::move(component_of);
   check.bad_indices = usable.bad_indices;
   check.degenerate_triangles += usable.repeated_vertices;
   for (auto& [a, b] : check.intersecting_examples) {

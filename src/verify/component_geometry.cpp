@@ -88,40 +88,42 @@ bool is_below(const Point& p, const Point& a, const Point& b, const Point& c) {
   return orient3d(a, b, c, p) * turn < 0;
 }
 
-/// Number of closed components other than `own` that `p` is in: those that the ray upwards crosses an odd number of
-/// times.
-std::size_t count_around(const Point& p, std::uint32_t own, const TriangleMesh& mesh, const EdgeTopology& topology,
-                         const TriangleTree& tree) {
+}  // namespace
+
+std::vector<std::uint32_t> find_components_around(const Point& p, const TriangleMesh& mesh,
+                                                  const std::vector<std::uint32_t>& component_of,
+                                                  const std::vector<bool>& is_closed, const TriangleTree& tree) {
   std::vector<std::uint32_t> crossed;
   const Box ray{p, {p[0], p[1], std::numeric_limits<double>::infinity()}};
   tree.for_each_block_meeting(ray, 0, [&](std::size_t block) {
     for (const std::uint32_t t : tree.block(block)) {
-      const std::uint32_t component = topology.component_of[t];
-      if (component == own || !topology.components[component].closed) continue;
+      const std::uint32_t component = component_of[t];
+      if (!is_closed[component]) continue;
       const auto& [a, b, c] = mesh.triangles[t];
       if (is_below(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c])) crossed.push_back(component);
     }
   });
   std::sort(crossed.begin(), crossed.end());
-  std::size_t around = 0;
+  std::vector<std::uint32_t> around;
   for (std::size_t begin = 0, end = 0; begin < crossed.size(); begin = end) {
     while (end < crossed.size() && crossed[end] == crossed[begin]) ++end;
-    around += (end - begin) % 2;
+    if ((end - begin) % 2 == 1) around.push_back(crossed[begin]);
   }
   return around;
 }
-
-}  // namespace
 
 std::vector<ComponentGeometry> measure_components(const TriangleMesh& mesh, const EdgeTopology& topology,
                                                   const TriangleTree& tree) {
   const std::vector<Sums> sums = sum_components(mesh, topology);
   std::vector<ComponentGeometry> components(sums.size());
+  std::vector<bool> is_closed;
+  for (const ComponentTopology& component : topology.components) is_closed.push_back(component.closed);
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t c = 0; c < components.size(); ++c) {
-    components[c] = {sums[c].area, sums[c].volume, safe_volume_sign(sums[c]), 0};
-    if (components.size() > 1 && topology.components[c].closed)
-      components[c].depth = count_around(sums[c].origin, static_cast<std::uint32_t>(c), mesh, topology, tree);
+    components[c] = {sums[c].area, sums[c].volume, safe_volume_sign(sums[c]), {}};
+    if (components.size() == 1 || !is_closed[c]) continue;
+    components[c].around = find_components_around(sums[c].origin, mesh, topology.component_of, is_closed, tree);
+    std::erase(components[c].around, static_cast<std::uint32_t>(c));  // it is on this one, not inside
   }
   settle_volume_signs(mesh, topology, sums, components);
   return components;

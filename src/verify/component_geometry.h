@@ -15,8 +15,21 @@ struct ComponentGeometry {
   double area = 0.0;      ///< Eq. (3) of [LCL15]
   double volume = 0.0;    ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
   int volume_sign = 0;    ///< exact, of the sum without rounding
-  std::size_t depth = 0;  ///< closed components that it lies inside of; 0 for one that is not closed itself
+  std::vector<std::uint32_t> around;  ///< closed components that it lies inside of; none for one that is not closed
 };
+
+/// The closed components that `p` lies inside of, in rising order: those that a ray from p crosses an odd number of
+/// times. Exact, ties broken by moving p an infinitesimal step sideways.
+///
+/// @param p             with exact coordinates
+/// @param component_of  of each triangle
+/// @param is_closed     of each component; others are passed over
+/// @param tree          of this mesh
+///
+/// Cost: the triangles near the ray upwards from p.
+std::vector<std::uint32_t> find_components_around(const Point& p, const TriangleMesh& mesh,
+                                                  const std::vector<std::uint32_t>& component_of,
+                                                  const std::vector<bool>& is_closed, const TriangleTree& tree);
 
 /// Measures every component.
 ///

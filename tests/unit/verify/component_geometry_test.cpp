@@ -39,6 +39,10 @@ TEST_CASE("depth along rays through vertices and edges") {
   MeshCheck check = check_mesh(nest);
   CHECK(check.fit_for_solver());
   for (std::size_t i = 0; i < 5; ++i) CHECK(check.components[i].depth == i);
+  CHECK_FALSE(check.components[0].parent);
+  for (std::uint32_t i = 1; i < 5; ++i) CHECK(check.components[i].parent == i - 1);
+  for (std::size_t t = 0; t < nest.triangles.size(); ++t)  // made from the outermost in, twelve triangles each
+    CHECK(check.component_of[t] == t / 12);
 
   TriangleMesh beside = cube(1);
   for (const Point& by : {Point{2.5, 0, 0}, {0, 0, 2.5}, {0, 0, -2.5}, {1, 1, 5}, {-1, 0, -5}, {2.5, 2.5, 2.5}})
@@ -54,6 +58,32 @@ TEST_CASE("depth along rays through vertices and edges") {
   std::rotate(apex_first.triangles[0].begin(), apex_first.triangles[0].begin() + 2, apex_first.triangles[0].end());
   REQUIRE(apex_first.triangles[0][0] == 4);
   CHECK(check_mesh(together(moved(apex_first, {0, 0, 2}), apex_first)).fit_for_solver());
+}
+
+TEST_CASE("triangles that cannot be judged belong to no component") {
+  TriangleMesh mesh = together(cube(1), moved(cube(2), {9, 0, 0}));
+  mesh.triangles.insert(mesh.triangles.begin(), Triangle{0, 0, 1});
+  const MeshCheck check = check_mesh(mesh);
+  REQUIRE(check.component_of.size() == mesh.triangles.size());
+  CHECK(check.component_of[0] == kNoComponent);
+  CHECK(check.component_of[1] == 1);  // the smaller of the two
+  CHECK(check.component_of.back() == 0);
+}
+
+TEST_CASE("the components around a point") {
+  const TriangleMesh mesh = together(together(cube(4), turned(cube(2))), moved(cube(1), {20, 0, 0}));
+  std::vector<std::uint32_t> component_of(mesh.triangles.size());
+  for (std::size_t t = 0; t < component_of.size(); ++t) component_of[t] = static_cast<std::uint32_t>(t / 12);
+  const TriangleTree tree(mesh);
+  const auto around = [&](const Point& p, std::vector<bool> is_closed) {
+    return find_components_around(p, mesh, component_of, is_closed, tree);
+  };
+  using List = std::vector<std::uint32_t>;
+  CHECK(around({0, 0, 0}, {true, true, true}) == List{0, 1});
+  CHECK(around({3, 3, 3}, {true, true, true}) == List{0});
+  CHECK(around({20, 0, 0.5}, {true, true, true}) == List{2});
+  CHECK(around({0, 0, -5}, {true, true, true}).empty());  // through two walls of each, and their diagonals
+  CHECK(around({0, 0, 0}, {false, true, true}) == List{1});
 }
 
 TEST_CASE("depth of cubes placed at random in and round a sphere") {
