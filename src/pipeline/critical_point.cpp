@@ -22,6 +22,7 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
     return Eigen::Vector3d(v.gradient[0], v.gradient[1], v.gradient[2]);
   };
   Vec3 at = place;
+  bool converged = false;
   for (int iteration = 0; iteration < 20; ++iteration) {
     Eigen::Matrix3d hessian;
     for (int k = 0; k < 3; ++k) {
@@ -39,12 +40,15 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
     }
     if (!(farthest < kFarthest)) {
       at = place;
+      converged = false;
       break;
     }
     at = next;
+    // The differences in the Hessian leave it a relative error of some 1e-6, so that late steps fall by that factor.
+    converged = step.norm() < 1e-9;
     if (step.norm() < 1e-12) break;
   }
-  return {at, std::exp(evaluate(atoms, field.decay(), at).value)};
+  return {at, std::exp(evaluate(atoms, field.decay(), at).value), converged};
 }
 
 }  // namespace gaussmesh

@@ -106,10 +106,10 @@ std::vector<CriticalPlace> critical_places(const GaussianField& field, const Tra
 
 std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue) {
   const CriticalPlace& first = places.front();
+  const auto coordinate = [&](int k) { return number_text(std::round(first.point[k] * 1e6) / 1e6 + 0.0, 13); };
   std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at (" +
-                        number_text(first.point[0], 9) + ", " + number_text(first.point[1], 9) + ", " +
-                        number_text(first.point[2], 9) + ") the surface is singular at c = " +
-                        number_text(first.value, 15) + ", " + number_text(std::abs(isovalue - first.value), 3) +
+                        coordinate(0) + ", " + coordinate(1) + ", " + coordinate(2) +
+                        ") the surface is singular at c = " + number_text(first.value, 15) + ", " + number_text(std::abs(isovalue - first.value), 3) +
                         " away";
   if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";

@@ -24,6 +24,8 @@ struct TraceResult {
 using StageClock = std::function<void(const std::string&)>;
 
 /// Traces the surface of `field` with cells of the given size.
+/// @throws LatticeDegenerate if the surface is degenerate with respect to each of a few lattices, and not for the reason
+///         that c is next to a critical value; that counts as uncertified
 TraceResult trace_surface(const GaussianField& field, double spacing, int threads, const StageClock& finished);
 
 }  // namespace gaussmesh

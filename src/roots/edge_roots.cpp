@@ -49,9 +49,11 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess, double curvature) {
-  // Second derivatives of log phi are 4 d^2 times a variance of atom positions, less 2 d.
-  const double steepest = 2.0 * decay + 4.0 * decay * decay;
-  curvature = std::clamp(std::isfinite(curvature) ? curvature : 0.0, -steepest, 4.0 * steepest);
+  // Second derivatives of log phi are 4 d^2 times a variance of atom positions, less 2 d; the variance is at most a
+  // quarter of the squared range of the positions.
+  const double reach = atoms.size() > 0 ? decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
+  const double steepest = 2.0 * decay + reach * reach;
+  curvature = std::clamp(std::isfinite(curvature) ? curvature : 0.0, -2.0 * decay, steepest);
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
   double width = b - a;
   Vec3 point = start;

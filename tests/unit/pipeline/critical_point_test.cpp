@@ -14,6 +14,7 @@ TEST_CASE("the critical point between two equal atoms is the middle, with the va
     const CriticalPoint found = find_critical_point(field, near);
     CHECK(std::hypot(found.point[0] - 1.5, found.point[1] - 0.5, found.point[2] - 1.0) < 1e-6);
     CHECK(found.relative_value == Approx(value).epsilon(1e-9));
+    CHECK(found.converged);
   }
 }
 
@@ -28,4 +29,5 @@ TEST_CASE("where there is no critical point nearby the place itself is the answe
   const GaussianField field({{0, 0, 0, 2.0, 0}}, 0.7, 1.0);
   const CriticalPoint found = find_critical_point(field, {1.9, 0.3, 0.2});
   CHECK(found.point == Vec3{1.9, 0.3, 0.2});
+  CHECK_FALSE(found.converged);
 }

@@ -218,6 +218,23 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
   }
 }
 
+TEST_CASE("roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
+  const double decay = 0.6;
+  const std::vector<Atom> atoms = {{-900.0, 0.0, 0.0, 1000.0, 0}, {900.0, 0.0, 0.0, 1000.0, 0}};
+  const GaussianField field(atoms, decay, 1.3);
+  const ExactField exact(atoms, decay, 1.3);
+  const double crease = std::sqrt(1000.0 * 1000.0 - 900.0 * 900.0);
+  int found = 0;
+  for (int i = 1; i <= 60; ++i) {
+    for (const EdgeRoot& root : find_roots(field, {-0.5, crease + 0.0001 * i * i, 0.125}, 0, 0.4)) {
+      const Vec3 p = to_angstrom(root.point.position);
+      CHECK(static_cast<double>(std::abs(exact.psi(p) / exact.gradient(p)[0])) < 1e-8);
+      ++found;
+    }
+  }
+  CHECK(found > 60);
+}
+
 TEST_CASE("no root is on a lattice plane or at an end of its edge") {
   // Spheres whose poles are on lattice planes, as near as coordinates tell.
   for (int n = 1; n < 40; ++n) {
