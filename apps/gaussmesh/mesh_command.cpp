@@ -10,7 +10,12 @@ namespace gaussmesh::app {
 
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program.add_option("molecule", command.molecule, "PQR or XYZR file, plain or gzipped")->type_name("MOL");
-  program.add_option("-o,--output", command.output, "mesh to write, OFF")->type_name("FILE");
+  program.add_option("-o,--output", command.outputs, "mesh to write; may be given several times; -: standard output")
+      ->type_name("FILE")
+      ->take_all();
+  program.add_option("--format", command.writing.format, "format of all meshes, whatever their names' extensions")
+      ->type_name("NAME");
+  program.add_flag("--no-header", command.no_header, "MSMS files without their three lines of header");
   program.add_option("--d,--decay", command.options.decay, "decay d of the Gaussians (1/A^2, 0.001 to 1000)")
       ->type_name("D")
       ->capture_default_str();
@@ -32,13 +37,23 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 
 int run_mesh(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a PQR or XYZR file, got nothing; see --help");
-  if (command.output.empty()) throw OptionError("-o: expected a file to write, got nothing");
+  if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
+  WriteOptions writing = command.writing;
+  writing.msms_header = !command.no_header;
+  // What cannot be written is found out now, not after the work.
+  for (const std::string& output : command.outputs) require_writable_mesh(output, writing);
+  if (!command.report.empty()) require_writable(command.report);
+
   const AtomFile input = read_atoms(command.molecule);
   for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
   const MeshResult result = mesh_surface(input.atoms, command.options);
-  write_off(result.mesh, command.output);
-  if (!command.report.empty()) write_text(report_json(result.report), command.report);
-  std::cout << command.output << ": " << report_summary(result.report);
+  const VertexData data = {result.normals, find_nearest_atoms(result.mesh, input.atoms, command.options.threads),
+                           find_vertex_components(result.mesh, result.report.check)};
+  OutputFiles files;
+  for (const std::string& output : command.outputs) files.add_mesh(result.mesh, data, output, writing);
+  if (!command.report.empty()) files.add_text(report_json(result.report), command.report);
+  files.commit();
+  std::cout << command.outputs.front() << ": " << report_summary(result.report);
   return 0;
 }
 

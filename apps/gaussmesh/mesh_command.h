@@ -3,15 +3,19 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "gaussmesh/mesh_surface.h"
+#include "gaussmesh/write_mesh.h"
 
 namespace gaussmesh::app {
 
 struct MeshCommand {
   std::string molecule;
-  std::string output;
+  std::vector<std::string> outputs;
   std::string report;
+  bool no_header = false;
+  WriteOptions writing;
   MeshOptions options;
 };
 

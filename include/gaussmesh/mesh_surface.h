@@ -10,6 +10,7 @@
 #include "gaussmesh/atom.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/triangle_mesh.h"
+#include "gaussmesh/vertex_data.h"
 
 namespace gaussmesh {
 
@@ -61,7 +62,7 @@ struct MeshReport {
 
 struct MeshResult {
   TriangleMesh mesh;                               ///< coordinates are whole numbers of 1e-9 A
-  std::vector<std::array<float, 3>> normals;       ///< of the field at the vertices, into the solvent
+  std::vector<Normal> normals;                     ///< of the field at the vertices
   MeshReport report;
 };
 

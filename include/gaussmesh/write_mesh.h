@@ -1,20 +1,90 @@
-// Writing meshes.
+// Writing meshes, and other files, so that each appears whole or not at all.
+//
+// Reading them is read_mesh.h.
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
+#include "gaussmesh/vertex_data.h"
 
 namespace gaussmesh {
 
-/// Writes OFF: `OFF`, `NV NF 0`, then `x y z` with nine decimals and `3 i j k`; no comments, no blank lines. This is the
-/// dialect that AFMPB, TetGen and meshio all read, and nine decimals are exactly the coordinates in memory.
-///
-/// The file appears whole or not at all: it is written beside its place and renamed.
-/// @throws InputError if the file cannot be written; an old file is then left as it was
-void write_off(const TriangleMesh& mesh, const std::filesystem::path& path);
+/// A format that meshes can be written in.
+struct MeshFormat {
+  std::string_view name;                     ///< what WriteOptions::format calls it
+  std::vector<std::string_view> extensions;  ///< names of files that mean this format, with their dot
+  std::string_view description;              ///< one line: what it holds
+};
 
-/// Writes text to a file in the same way.
-void write_text(const std::string& text, const std::filesystem::path& path);
+/// All of them. Coordinates have nine decimals in text and 64 bits in binary formats, so that a reader gets back
+/// the bits that are in memory; only STL has 32 bits, and merges vertices nearer than that.
+const std::vector<MeshFormat>& mesh_formats();
+
+struct WriteOptions {
+  std::string format;       ///< a name of mesh_formats(); empty: the extension decides, OFF for standard output
+  bool msms_header = true;  ///< the three lines in front of MSMS vertices and faces
+};
+
+/// Several files that appear together: each is written beside its place, and commit() renames them all. What is not
+/// committed leaves nothing behind, and old files are as they were.
+///
+/// The path `-` is standard output, and devices and pipes are written where they are; there, nothing can be taken
+/// back. A symbolic link is followed.
+class OutputFiles {
+ public:
+  OutputFiles();
+  ~OutputFiles();
+  OutputFiles(OutputFiles&&) noexcept;
+  OutputFiles& operator=(OutputFiles&&) noexcept;
+
+  /// Writes a mesh; MSMS makes the two files PATH.vert and PATH.face, whichever of them is named.
+  ///
+  /// Vertex data that are not known are left out; normals and, for MSMS, all of them are replaced as write_mesh()
+  /// says.
+  /// @throws OptionError if the format is unknown, or cannot go to standard output
+  /// @throws InputError  if a file cannot be written
+  ///
+  /// Cost: about 0.05 us a triangle for OFF on one core.
+  void add_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
+                const WriteOptions& options = {});
+  void add_text(std::string_view text, const std::filesystem::path& path);
+
+  /// @throws InputError if a file cannot be put in its place
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Writes one mesh by OutputFiles.
+///
+/// | format | what is written of the vertex data |
+/// |---|---|
+/// | off | none |
+/// | msms | normals (averaged over the triangles if not known), atoms from 1 (else 0) |
+/// | ply, ply-ascii, vtp | normals, atoms and components from 0 |
+/// | obj | normals |
+/// | stl | none |
+/// | gmsh22, gmsh41 | components from 1 as tags of the triangles; normals, atoms and components as NodeData |
+/// | smesh | components from 1 as markers; a point in each cavity (hole) and in each solid (region) |
+void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
+                const WriteOptions& options = {});
+
+/// Writes one text by OutputFiles.
+void write_text(std::string_view text, const std::filesystem::path& path);
+
+/// Throws what writing would, if it is already certain that `path` cannot be written: an unknown format, no such
+/// folder, no permission. Leaves nothing behind. `is_mesh_format(options)` is checked for meshes only.
+void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {});
+void require_writable(const std::filesystem::path& path);
+
+/// Deletes what was begun and is not committed. For signal handlers: nothing but unlink() is called.
+void remove_unfinished_files() noexcept;
 
 }  // namespace gaussmesh

@@ -8,6 +8,9 @@
 
 namespace gaussmesh {
 
+/// How many threads a user's wish means: 0 is one for each processor.
+inline int thread_count(int wish) { return wish > 0 ? wish : omp_get_num_procs(); }
+
 /// Calls work(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
 /// When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.
 template <typename Work>

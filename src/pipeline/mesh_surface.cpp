@@ -1,6 +1,5 @@
 #include "gaussmesh/mesh_surface.h"
 
-#include <omp.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "core/lattice_degenerate.h"
 #include "core/number_text.h"
+#include "core/parallel.h"
 #include "field/gaussian_field.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
@@ -147,7 +147,7 @@ void verify(const MeshResult& result, const std::vector<Atom>& atoms, MeshReport
 
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_options(atoms, options);
-  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  const int threads = thread_count(options.threads);
   MeshResult result;
   MeshReport& report = result.report;
   report.atoms = atoms.size();

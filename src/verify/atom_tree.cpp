@@ -15,8 +15,8 @@ double squared(double x) { return x * x; }
 
 AtomTree::AtomTree(const std::vector<Atom>& atoms) {
   std::vector<Group> groups;
-  for (const std::uint32_t i :
-       morton_order(atoms.size(), [&](std::uint32_t number) { return centre_of(atoms[number]); })) {
+  order_ = morton_order(atoms.size(), [&](std::uint32_t number) { return centre_of(atoms[number]); });
+  for (const std::uint32_t i : order_) {
     atoms_.push_back(atoms[i]);
     groups.push_back(group_of(atoms[i]));
   }
@@ -60,6 +60,10 @@ AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const 
   for (std::size_t i = 0; i < count && children[i].exponent > best.exponent; ++i)
     best = best_below(level - 1, children[i].atom, place, best);
   return best;
+}
+
+std::uint32_t AtomTree::nearest(const Point& point) const {
+  return order_[best_below(levels_.size(), 0, {point, point}, {}).atom];
 }
 
 /// A lower bound of the largest exponent at any point of `place`: that of the atom which is largest at its middle.

@@ -1,6 +1,7 @@
 // A tree of boxes over atoms, to find those that count at a place in a sum of Gaussians.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -20,6 +21,10 @@ class AtomTree {
   explicit AtomTree(const std::vector<Atom>& atoms);
 
   std::size_t atom_count() const { return atoms_.size(); }
+
+  /// The number, in the list that the tree was made of, of the atom with the largest exponent at `point`; of several
+  /// one, always the same.
+  std::uint32_t nearest(const Point& point) const;
 
   /// Calls visit(atom) for every atom whose exponent is, at some point of `place`, less than `range` below the
   /// largest exponent at that point; and for some others.
@@ -74,7 +79,8 @@ class AtomTree {
       visit_below(level - 1, child, place, least, visit);
   }
 
-  std::vector<Atom> atoms_;                 // along the curve
+  std::vector<std::uint32_t> order_;        // numbers of the atoms along the curve
+  std::vector<Atom> atoms_;                 // in that order
   std::vector<std::vector<Group>> levels_;  // the last has one group, of all
 };
 

@@ -108,16 +108,16 @@ std::string report_summary(const MeshReport& report) {
     time_s += s.time_s;
     memory_MB = s.peak_memory_MB;
   }
-  std::string text = counted(report.atoms, "atom", "atoms") + ": " +
-                     counted(check.triangles, "triangle", "triangles") + ", " +
-                     counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) +
-                     " A^2, volume " + number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " +
-                     number_text(memory_MB, 3) + " MB\n";
+  std::string text =
+      counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") + ", " +
+      counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) + " A^2, volume " +
+      number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " + number_text(memory_MB, 3) + " MB\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
                                counted(cavities, "cavity", "cavities") + ", " +
                                counted(handles, "handle", "handles");
   if (report.certified) {
-    text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface: " + topology;
+    text +=
+        "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface: " + topology;
   } else {
     text += "NOT certified: c is too near a critical value; meshed c = " + number_text(report.isovalue_used, 15) +
             " instead: " + topology;

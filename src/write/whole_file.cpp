@@ -8,25 +8,73 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "gaussmesh/error.h"
+#include "gaussmesh/write_mesh.h"
 
 namespace gaussmesh {
+namespace {
 
-WholeFile::WholeFile(const std::filesystem::path& path) : path_(path), temporary_(path.string() + ".XXXXXX") {
-  if (std::filesystem::is_directory(path)) {
+namespace fs = std::filesystem;
+
+/// Whether something is there that is written to and not replaced.
+bool is_written_in_place(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+}  // namespace
+
+std::atomic<WholeFile::Unfinished*> WholeFile::unfinished_{nullptr};
+
+WholeFile::WholeFile(const fs::path& path) : path_(path), target_(path) {
+  if (path == "-") {
+    descriptor_ = ::dup(STDOUT_FILENO);
+    if (descriptor_ < 0) fail("cannot be opened");
+    return;
+  }
+  std::error_code error;
+  if (fs::is_symlink(path, error)) target_ = fs::weakly_canonical(path, error);
+  if (error) target_ = path;
+  if (fs::is_directory(target_, error)) {
     throw InputError(path.string() + ": expected a file to write, got a directory");
   }
-  descriptor_ = ::mkstemp(temporary_.data());
-  if (descriptor_ < 0) {
-    temporary_.clear();
-    fail("cannot be created");
+  if (is_written_in_place(target_)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail("cannot be opened");
+    return;
   }
+  if (fs::exists(target_, error) && ::access(target_.c_str(), W_OK) != 0) fail("cannot be replaced");
+  make_temporary();
 }
+
+WholeFile::WholeFile(WholeFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, nullptr)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 WholeFile::~WholeFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_ == nullptr) return;
+  ::unlink(temporary_->path.c_str());
+  temporary_->is_there = false;
+}
+
+void WholeFile::make_temporary() {
+  static std::mutex list_mutex;
+  auto entry = std::make_unique<Unfinished>();
+  entry->path = target_.string() + ".XXXXXX";
+  const std::lock_guard lock(list_mutex);
+  descriptor_ = ::mkostemp(entry->path.data(), O_CLOEXEC);
+  if (descriptor_ < 0) fail("cannot be created");
+  temporary_ = entry.release();
+  temporary_->next = unfinished_;
+  unfinished_ = temporary_;
 }
 
 void WholeFile::fail(const char* what) const {
@@ -42,16 +90,29 @@ void WholeFile::write(std::string_view text) {
   }
 }
 
+void WholeFile::close() {
+  if (descriptor_ < 0) return;
+  if (temporary_ != nullptr) {
+    // mkostemp makes files that only their owner reads; give the ones that any new file would get.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot be given its permissions");
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be closed");
+}
+
 void WholeFile::commit() {
-  // mkstemp makes files that only their owner reads; give the ones that any new file would get.
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot be given its permissions");
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail("cannot be closed");
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in its place");
-  temporary_.clear();
+  close();
+  if (temporary_ == nullptr) return;
+  if (std::rename(temporary_->path.c_str(), target_.c_str()) != 0) fail("cannot be put in its place");
+  temporary_->is_there = false;
+  temporary_ = nullptr;
+}
+
+void remove_unfinished_files() noexcept {
+  for (WholeFile::Unfinished* entry = WholeFile::unfinished_; entry != nullptr; entry = entry->next) {
+    if (entry->is_there) ::unlink(entry->path.c_str());
+  }
 }
 
 }  // namespace gaussmesh

@@ -1,6 +1,7 @@
 // A file that appears whole or not at all.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,22 +9,40 @@
 namespace gaussmesh {
 
 /// Collects output in a temporary file beside `path`; commit() renames it. Without commit() nothing is left behind.
+///
+/// Where there is no file that could be replaced - `-` for standard output, devices, pipes - the output goes there
+/// at once. A symbolic link is followed.
 class WholeFile {
  public:
   /// @throws InputError if no file can be made there
   explicit WholeFile(const std::filesystem::path& path);
   ~WholeFile();
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
+  WholeFile(WholeFile&& other) noexcept;
+  WholeFile& operator=(WholeFile&&) = delete;
 
   void write(std::string_view text);
+
+  /// Ends the writing; what has been written is where it can be committed, and no file stays open.
+  void close();
+
   void commit();
 
  private:
+  /// A temporary file, in a list that only grows: a signal may come at any time, on any thread.
+  struct Unfinished {
+    std::string path;
+    std::atomic<bool> is_there{true};
+    Unfinished* next = nullptr;
+  };
+  friend void remove_unfinished_files() noexcept;
+  static std::atomic<Unfinished*> unfinished_;
+
+  void make_temporary();
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path path_;
-  std::string temporary_;
+  std::filesystem::path path_;       // as given, for messages
+  std::filesystem::path target_;     // what is replaced
+  Unfinished* temporary_ = nullptr;  // none where the output goes to its place at once
   int descriptor_ = -1;
 };
 

@@ -3,59 +3,19 @@
 
     tests/cli/cli_test.py --program build/bin/gaussmesh --data data [CLASS...]
 
-Exit codes: 0 good, 1 internal, 2 wrong use, 3 input, 4 cannot mesh, 5 check failed. Standard library only.
-`--update-golden` writes the help texts anew instead of comparing them.
+Standard library only. `--update-golden` writes the help texts anew instead of comparing them.
 """
 
-import argparse
 import gzip
 import json
 import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
-import unittest
 
-WRONG_USE = 2
-BAD_INPUT = 3
-CANNOT_MESH = 4
-CHECK_FAILED = 5
+from support import BAD_INPUT, CANNOT_MESH, CHECK_FAILED, WRONG_USE, CliTest, run_tests, settings
 
 GOLDEN = pathlib.Path(__file__).resolve().parent / "golden"
-settings = argparse.Namespace(program="", data=pathlib.Path(), update_golden=False)
-
-
-class CliTest(unittest.TestCase):
-    """A fresh folder for each test, and one way to run the program in it."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="gaussmesh_cli_")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.mesh = self.folder / "out.off"
-
-    def run_program(self, *arguments):
-        return subprocess.run([settings.program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, timeout=300, check=False)
-
-    def expect(self, code, *arguments):
-        result = self.run_program(*arguments)
-        said = f"{' '.join(map(str, arguments))}\nstdout: {result.stdout}\nstderr: {result.stderr}"
-        self.assertEqual(result.returncode, code, said)
-        return result
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return path
-
-    def molecule(self, name):
-        return settings.data / f"{name}.pqr"
-
-    def files(self):
-        return sorted(path.name for path in self.folder.iterdir())
 
 
 class Meshing(CliTest):
@@ -324,19 +284,5 @@ class Help(CliTest):
         self.assertRegex(self.expect(0, "--version").stdout, re.compile(r"^(gaussmesh )?\d+\.\d+\.\d+\n$"))
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Tests of the program's exit codes and messages.")
-    parser.add_argument("--program", required=True, type=pathlib.Path)
-    parser.add_argument("--data", required=True, type=pathlib.Path, help="folder with methanol.pqr and dmso.pqr")
-    parser.add_argument("--update-golden", action="store_true")
-    parser.add_argument("tests", nargs="*", help="classes or Class.test_name; all where none is given")
-    parser.parse_args(namespace=settings)
-    settings.program, settings.data = settings.program.resolve(), settings.data.resolve()
-    loader = unittest.defaultTestLoader
-    module = sys.modules[__name__]
-    suite = loader.loadTestsFromNames(settings.tests, module) if settings.tests else loader.loadTestsFromModule(module)
-    return 0 if unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful() else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_tests(__name__))

@@ -1,42 +1,16 @@
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "catch2.h"
 #include "core/lattice.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/write_mesh.h"
+#include "support/folder.h"
 #include "support/random.h"
 
 using namespace gaussmesh;
-namespace fs = std::filesystem;
+using testing::Folder;
+using testing::read_file;
 
 namespace {
-
-/// A folder of its own for each test, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "gaussmesh_write_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  std::size_t files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), {})); }
-
- private:
-  fs::path path_;
-};
-
-std::string read_file(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {1.5, 0, 0}, {0, -2.000000001, 0}, {0.123456789, 0, 1000000}},
@@ -47,7 +21,7 @@ TriangleMesh tetrahedron() {
 
 TEST_CASE("OFF is written with nine decimals and nothing else") {
   const Folder folder;
-  write_off(tetrahedron(), folder / "t.off");
+  write_mesh(tetrahedron(), {}, folder / "t.off");
   CHECK(read_file(folder / "t.off") ==
         "OFF\n4 4 0\n"
         "0.000000000 0.000000000 0.000000000\n"
@@ -70,7 +44,7 @@ TEST_CASE("what is read back has the same bits") {
   }
   for (std::uint32_t i = 0; i + 2 < 20000; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
   const Folder folder;
-  write_off(mesh, folder / "m.off");
+  write_mesh(mesh, {}, folder / "m.off");
   const TriangleMesh back = read_off(folder / "m.off");
   CHECK(back.vertices == mesh.vertices);
   CHECK(back.triangles == mesh.triangles);
@@ -78,44 +52,13 @@ TEST_CASE("what is read back has the same bits") {
 
 TEST_CASE("small negative coordinates keep their sign; there is no minus before zero") {
   const Folder folder;
-  write_off({{{-1e-9, -0.0, 0.999999999}, {-0.5, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, folder / "n.off");
+  write_mesh({{{-1e-9, -0.0, 0.999999999}, {-0.5, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}, folder / "n.off");
   CHECK_THAT(read_file(folder / "n.off"),
              Catch::Matchers::ContainsSubstring("-0.000000001 0.000000000 0.999999999\n-0.500000000"));
 }
 
 TEST_CASE("an empty mesh is a legal file") {
   const Folder folder;
-  write_off({}, folder / "e.off");
+  write_mesh({}, {}, folder / "e.off");
   CHECK(read_file(folder / "e.off") == "OFF\n0 0 0\n");
-}
-
-TEST_CASE("the file appears whole and alone, and replaces an old one") {
-  const Folder folder;
-  write_text("old", folder / "f");
-  CHECK(read_file(folder / "f") == "old");
-  write_off(tetrahedron(), folder / "f");
-  CHECK_THAT(read_file(folder / "f"), Catch::Matchers::ContainsSubstring("OFF\n4 4 0\n"));
-  write_text("new", folder / "f");
-  CHECK(read_file(folder / "f") == "new");
-  CHECK(folder.files() == 1);
-}
-
-TEST_CASE("a file that cannot be written is an error that names it, and leaves nothing behind") {
-  const Folder folder;
-  CHECK_THROWS_AS(write_off(tetrahedron(), folder / "no/such/folder.off"), InputError);
-  fs::create_directory(folder / "taken");
-  CHECK_THROWS_AS(write_off(tetrahedron(), folder / "taken"), InputError);
-  try {
-    write_text("x", folder / "no/such/folder.off");
-  } catch (const InputError& error) {
-    CHECK_THAT(error.what(), Catch::Matchers::ContainsSubstring("folder.off"));
-  }
-  CHECK(folder.files() == 1);
-}
-
-TEST_CASE("a new file gets the permissions that any new file would get") {
-  const Folder folder;
-  write_text("x", folder / "ours");
-  std::ofstream(folder / "theirs") << "x";
-  CHECK(fs::status(folder / "ours").permissions() == fs::status(folder / "theirs").permissions());
 }

@@ -1,0 +1,97 @@
+#include "write/mesh_formats.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "gaussmesh/error.h"
+#include "gaussmesh/nearest_name.h"
+
+namespace gaussmesh {
+namespace {
+
+constexpr std::array<FormatEntry, 10> kFormats = {{
+    {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", {{{"", write_off}}}},
+    {"msms",
+     {".vert", ".face"},
+     "two files, with normals and nearest atoms (TABI-PB, PyGBe, pbj, VMD)",
+     {{{".vert", write_msms_vertices}, {".face", write_msms_faces}}}},
+    {"ply",
+     {".ply"},
+     "binary, with normals, nearest atoms, components (MeshLab, PyMOL)",
+     {{{"", write_ply_binary}}}},
+    {"ply-ascii", {}, "the same as text", {{{"", write_ply_ascii}}}},
+    {"obj", {".obj"}, "with normals (ChimeraX, Blender)", {{{"", write_obj}}}},
+    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", {{{"", write_stl}}}},
+    {"gmsh22",
+     {".msh"},
+     "Gmsh 2.2, a tag for each component, vertex data as views (bempp)",
+     {{{"", write_gmsh_22}}}},
+    {"gmsh41", {}, "the same as Gmsh 4.1", {{{"", write_gmsh_41}}}},
+    {"smesh", {".smesh"}, "TetGen, with a hole in each cavity and a region in each solid", {{{"", write_smesh}}}},
+    {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", {{{"", write_vtp}}}},
+}};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+const FormatEntry& find_by_name(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const FormatEntry& entry : kFormats) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  throw OptionError("format: expected one of the known formats, got '" + name + "'; did you mean '" +
+                    nearest_name(name, names) + "'?");
+}
+
+const FormatEntry& find_by_extension(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  std::vector<std::string_view> extensions;
+  for (const FormatEntry& entry : kFormats) {
+    for (const std::string_view known : entry.extensions) {
+      if (known.empty()) continue;
+      if (known == extension) return entry;
+      extensions.push_back(known);
+    }
+  }
+  throw OptionError(path.string() + ": expected a name with the extension of a known format, got '" + extension +
+                    "'; did you mean '" + nearest_name(extension, extensions) + "'? Or name the format");
+}
+
+}  // namespace
+
+const std::vector<MeshFormat>& mesh_formats() {
+  static const std::vector<MeshFormat> formats = [] {
+    std::vector<MeshFormat> list;
+    for (const FormatEntry& entry : kFormats) {
+      list.push_back({entry.name, {}, entry.description});
+      for (const std::string_view extension : entry.extensions)
+        if (!extension.empty()) list.back().extensions.push_back(extension);
+    }
+    return list;
+  }();
+  return formats;
+}
+
+const FormatEntry& find_format(const std::filesystem::path& path, const WriteOptions& options) {
+  const bool is_standard_output = path == "-";
+  const bool is_named = !options.format.empty();
+  const FormatEntry& entry = is_named             ? find_by_name(options.format)
+                             : is_standard_output ? kFormats.front()
+                                                  : find_by_extension(path);
+  if (is_standard_output && entry.parts[1].write != nullptr) {
+    throw OptionError("format '" + options.format + "': expected a file name, got '-'; it makes two files");
+  }
+  return entry;
+}
+
+std::filesystem::path part_path(const std::filesystem::path& path, const FormatPart& part) {
+  if (part.extension.empty()) return path;
+  std::filesystem::path result = path;
+  const std::string own = lower_case(path.extension().string());
+  return own == ".vert" || own == ".face" ? result.replace_extension(part.extension) : result += part.extension;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,83 @@
+// What the formats share: the mesh as they get it, and records written in blocks.
+//
+// One file here is one format; mesh_formats.cpp is the table of them.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gaussmesh/vertex_data.h"
+#include "write/put_number.h"
+#include "write/whole_file.h"
+
+namespace gaussmesh {
+
+/// What a format writes.
+struct MeshView {
+  const TriangleMesh& mesh;
+  const VertexData& data;
+  bool msms_header = true;
+
+  /// The component of a vertex, from 1; 1 for all where components are not known, 0 for a vertex in none.
+  std::uint32_t tag(std::uint32_t vertex) const {
+    return data.components.empty() ? 1 : data.components[vertex] + 1;  // kNoComponent + 1 is 0
+  }
+  std::uint32_t tag(const Triangle& triangle) const { return tag(triangle[0]); }
+};
+
+/// Writes `count` records: put(p, i) writes record i at p, at most `longest` bytes, and returns its end.
+///
+/// On one thread: formatting costs little more than handing the bytes to the system does.
+template <class Put>
+void write_records(WholeFile& file, std::size_t count, std::size_t longest, const Put& put) {
+  constexpr std::size_t kBlock = 8192;  // records: as many as stay in the cache until they are written
+  std::string buffer(std::min(kBlock, count) * longest, '\0');
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, count);
+    char* p = buffer.data();
+    for (std::size_t i = begin; i < end; ++i) p = put(p, i);
+    file.write({buffer.data(), static_cast<std::size_t>(p - buffer.data())});
+  }
+}
+
+/// Writes numbers with `separator` between them and `end` behind the last.
+template <class Numbers, class Put>
+char* put_row(char* p, const Numbers& numbers, char separator, char end, const Put& put) {
+  for (const auto& number : numbers) {
+    p = put(p, number);
+    *p++ = separator;
+  }
+  p[-1] = end;
+  return p;
+}
+
+inline char* put_point(char* p, const Point& point, char end) {
+  return put_row(p, point, ' ', end, put_coordinate);
+}
+inline char* put_normal(char* p, const Normal& normal, char end) {
+  return put_row(p, normal, ' ', end, put_fraction);
+}
+
+/// The vertex numbers of a triangle, counted from `first`.
+inline char* put_triangle(char* p, const Triangle& triangle, std::uint64_t first, char end) {
+  return put_row(p, triangle, ' ', end, [first](char* q, std::uint32_t v) { return put_integer(q, v + first); });
+}
+
+inline constexpr std::size_t kLongestPoint = 3 * (kLongestNumber + 1);
+inline constexpr std::size_t kLongestIndex = 11;  // 10 digits and what separates them
+
+// The formats. Each writes one file.
+void write_off(const MeshView& view, WholeFile& file);
+void write_msms_vertices(const MeshView& view, WholeFile& file);
+void write_msms_faces(const MeshView& view, WholeFile& file);
+void write_ply_binary(const MeshView& view, WholeFile& file);
+void write_ply_ascii(const MeshView& view, WholeFile& file);
+void write_obj(const MeshView& view, WholeFile& file);
+void write_stl(const MeshView& view, WholeFile& file);
+void write_gmsh_22(const MeshView& view, WholeFile& file);
+void write_gmsh_41(const MeshView& view, WholeFile& file);
+void write_smesh(const MeshView& view, WholeFile& file);
+void write_vtp(const MeshView& view, WholeFile& file);
+
+}  // namespace gaussmesh

@@ -1,0 +1,62 @@
+#include <utility>
+
+#include "gaussmesh/write_mesh.h"
+#include "write/mesh_formats.h"
+
+namespace gaussmesh {
+
+struct OutputFiles::State {
+  std::vector<WholeFile> files;
+};
+
+OutputFiles::OutputFiles() : state_(std::make_unique<State>()) {}
+OutputFiles::~OutputFiles() = default;
+OutputFiles::OutputFiles(OutputFiles&&) noexcept = default;
+OutputFiles& OutputFiles::operator=(OutputFiles&&) noexcept = default;
+
+void OutputFiles::add_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
+                           const WriteOptions& options) {
+  const MeshView view{mesh, data, options.msms_header};
+  for (const FormatPart& part : find_format(path, options).parts) {
+    if (part.write == nullptr) continue;
+    WholeFile file(part_path(path, part));
+    part.write(view, file);
+    file.close();
+    state_->files.push_back(std::move(file));
+  }
+}
+
+void OutputFiles::add_text(std::string_view text, const std::filesystem::path& path) {
+  WholeFile file(path);
+  file.write(text);
+  file.close();
+  state_->files.push_back(std::move(file));
+}
+
+void OutputFiles::commit() {
+  for (WholeFile& file : state_->files) file.commit();
+  state_->files.clear();
+}
+
+void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
+                const WriteOptions& options) {
+  OutputFiles files;
+  files.add_mesh(mesh, data, path, options);
+  files.commit();
+}
+
+void write_text(std::string_view text, const std::filesystem::path& path) {
+  OutputFiles files;
+  files.add_text(text, path);
+  files.commit();
+}
+
+void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options) {
+  for (const FormatPart& part : find_format(path, options).parts) {
+    if (part.write != nullptr) require_writable(part_path(path, part));
+  }
+}
+
+void require_writable(const std::filesystem::path& path) { const WholeFile probe(path); }
+
+}  // namespace gaussmesh
