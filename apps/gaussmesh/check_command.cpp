@@ -6,6 +6,7 @@
 
 #include "check_report.h"
 #include "gaussmesh/read_atoms.h"
+#include "gaussmesh/read_mesh.h"
 #include "gaussmesh/write_mesh.h"
 
 namespace gaussmesh::app {
@@ -24,7 +25,7 @@ std::string refuse_unless_positive(const std::string& text) {
 }
 
 CheckFindings find_all(const CheckOptions& options) {
-  const TriangleMesh mesh = read_off(options.mesh);
+  const TriangleMesh mesh = read_mesh(options.mesh).mesh;
   CheckFindings found;
   found.name = options.mesh;
   found.mesh = check_mesh(mesh);
@@ -42,7 +43,7 @@ CheckFindings find_all(const CheckOptions& options) {
 CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
   CLI::App* command = program.add_subcommand("check", "judge a mesh by its triangles alone, exactly");
   const CLI::Validator positive(refuse_unless_positive, "", "positive");
-  command->add_option("mesh", options.mesh, "mesh to judge, OFF")->type_name("MESH")->required();
+  command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads")->type_name("MESH")->required();
   CLI::Option* molecule =
       command->add_option("molecule", options.molecule, "PQR or XYZR file that it should be the surface of")
           ->type_name("MOL");

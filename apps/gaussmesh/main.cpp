@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "check_command.h"
+#include "convert_command.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/version.h"
 #include "mesh_command.h"
@@ -18,15 +19,19 @@ int fail(const std::exception& error, ExitCode code) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App program("gaussmesh: certified triangular meshes of molecular Gaussian surfaces\n"
-                   "  { x : sum_i exp(-d (|x - x_i|^2 - r_i^2)) = c }");
+  CLI::App program(
+      "gaussmesh: certified triangular meshes of molecular Gaussian surfaces\n"
+      "  { x : sum_i exp(-d (|x - x_i|^2 - r_i^2)) = c }");
   program.set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion);
-  program.footer("Example:  gaussmesh in.pqr --d 0.6 --c 1.7 -o out.off\n\n"
-                 "Exit codes: 0 good, 1 internal error, 2 wrong use, 3 bad input, 4 cannot mesh, 5 check failed");
+  program.footer(
+      "Example:  gaussmesh in.pqr --d 0.6 --c 1.7 -o out.off\n\n"
+      "Exit codes: 0 good, 1 internal error, 2 wrong use, 3 bad input, 4 cannot mesh, 5 check failed");
   gaussmesh::app::MeshCommand mesh;
   gaussmesh::app::add_mesh_options(program, mesh);
   gaussmesh::app::CheckOptions check;
   CLI::App* check_command = gaussmesh::app::add_check_command(program, check);
+  gaussmesh::app::ConvertOptions convert;
+  CLI::App* convert_command = gaussmesh::app::add_convert_command(program, convert);
   program.require_subcommand(0, 1);
   try {
     program.parse(argc, argv);
@@ -34,7 +39,9 @@ int run(int argc, char** argv) {
     const int code = program.exit(error);
     return code == 0 ? kGood : kWrongUse;
   }
-  return check_command->parsed() ? gaussmesh::app::run_check(check) : gaussmesh::app::run_mesh(mesh);
+  if (check_command->parsed()) return gaussmesh::app::run_check(check);
+  if (convert_command->parsed()) return gaussmesh::app::run_convert(convert);
+  return gaussmesh::app::run_mesh(mesh);
 }
 
 }  // namespace

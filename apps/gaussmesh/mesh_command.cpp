@@ -4,18 +4,17 @@
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
-#include "gaussmesh/write_mesh.h"
+#include "output_options.h"
 
 namespace gaussmesh::app {
 
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program.add_option("molecule", command.molecule, "PQR or XYZR file, plain or gzipped")->type_name("MOL");
-  program.add_option("-o,--output", command.outputs, "mesh to write; may be given several times; -: standard output")
+  program
+      .add_option("-o,--output", command.outputs, "mesh to write; may be given several times; -: standard output")
       ->type_name("FILE")
       ->take_all();
-  program.add_option("--format", command.writing.format, "format of all meshes, whatever their names' extensions")
-      ->type_name("NAME");
-  program.add_flag("--no-header", command.no_header, "MSMS files without their three lines of header");
+  add_format_options(program, command.writing, command.no_header);
   program.add_option("--d,--decay", command.options.decay, "decay d of the Gaussians (1/A^2, 0.001 to 1000)")
       ->type_name("D")
       ->capture_default_str();
@@ -38,12 +37,8 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 int run_mesh(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a PQR or XYZR file, got nothing; see --help");
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
-  WriteOptions writing = command.writing;
-  writing.msms_header = !command.no_header;
-  // What cannot be written is found out now, not after the work.
-  for (const std::string& output : command.outputs) require_writable_mesh(output, writing);
-  if (!command.report.empty()) require_writable(command.report);
-
+  const WriteOptions writing = writing_options(command.writing, command.no_header);
+  require_writable_outputs(command.outputs, command.report, writing);
   const AtomFile input = read_atoms(command.molecule);
   for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
   const MeshResult result = mesh_surface(input.atoms, command.options);

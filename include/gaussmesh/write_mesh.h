@@ -79,9 +79,12 @@ void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::fil
 /// Writes one text by OutputFiles.
 void write_text(std::string_view text, const std::filesystem::path& path);
 
-/// Throws what writing would, if it is already certain that `path` cannot be written: an unknown format, no such
-/// folder, no permission. Leaves nothing behind. `is_mesh_format(options)` is checked for meshes only.
-void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {});
+/// The files that a mesh of this name is written to: one, or two of MSMS.
+/// @throws OptionError as OutputFiles::add_mesh() does
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// Throws what writing would, if it is already certain that a file cannot be written: no such folder, no permission.
+/// Leaves nothing behind.
 void require_writable(const std::filesystem::path& path);
 
 /// Deletes what was begun and is not committed. For signal handlers: nothing but unlink() is called.

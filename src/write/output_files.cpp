@@ -51,10 +51,12 @@ void write_text(std::string_view text, const std::filesystem::path& path) {
   files.commit();
 }
 
-void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options) {
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, const WriteOptions& options) {
+  std::vector<std::filesystem::path> files;
   for (const FormatPart& part : find_format(path, options).parts) {
-    if (part.write != nullptr) require_writable(part_path(path, part));
+    if (part.write != nullptr) files.push_back(part_path(path, part));
   }
+  return files;
 }
 
 void require_writable(const std::filesystem::path& path) { const WholeFile probe(path); }

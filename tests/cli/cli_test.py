@@ -280,6 +280,9 @@ class Help(CliTest):
     def test_check(self):
         self.same_as_golden("help_check", "check", "--help")
 
+    def test_convert(self):
+        self.same_as_golden("help_convert", "convert", "--help")
+
     def test_version(self):
         self.assertRegex(self.expect(0, "--version").stdout, re.compile(r"^(gaussmesh )?\d+\.\d+\.\d+\n$"))
 

@@ -225,6 +225,44 @@ class Msms(FormatTest):
             self.assertAlmostEqual(mine, powers.min(), delta=1e-9)
 
 
+class Convert(FormatTest):
+    def test_vertex_data_survive(self):
+        self.expect(0, "convert", "m.ply", "n.vert", "n.off", "n.msh", "n.vtp")
+        for suffix in ["vert", "face", "off", "msh", "vtp"]:
+            self.assertEqual((self.folder / f"n.{suffix}").read_bytes(), FormatTest.made[f"m.{suffix}"], suffix)
+
+    def test_between_text_formats(self):
+        for name in ["m.vert", "m.obj", "m.msh", "m.smesh", "ascii.ply", "bare.face"]:
+            with self.subTest(name):
+                self.assertEqual(self.expect(0, "convert", name, "-").stdout, (self.folder / "m.off").read_text())
+
+    def test_nearest_atoms_on_request(self):
+        self.expect(0, "convert", "m.obj", "n.vert", "--molecule", self.molecule("fas2"))
+        self.assertEqual((self.folder / "n.vert").read_bytes(), FormatTest.made["m.vert"])
+
+    def test_files_that_other_programs_wrote(self):
+        mesh = meshio.Mesh(self.points, [("triangle", self.triangles)])
+        for name, options in [("o.off", {}), ("o.ply", {"binary": True}), ("p.ply", {"binary": False}), ("o.obj", {}),
+                              ("o.stl", {"binary": True}), ("p.stl", {"binary": False}),
+                              ("o.msh", {"file_format": "gmsh22", "binary": False}),
+                              ("p.msh", {"file_format": "gmsh", "binary": False})]:
+            with self.subTest(name):
+                mesh.write(self.folder / name, **options)
+                judged = self.expect(0, "check", name)
+                self.assertIn(f"{len(self.triangles)} triangles", judged.stdout)
+
+    def test_a_mesh_with_missing_vertices_is_refused(self):
+        self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")
+        self.expect(BAD_INPUT, "convert", "bad.off", "new.ply")
+        self.assertNotIn("new.ply", self.files())
+
+    def test_a_mesh_with_holes_has_no_inside(self):
+        self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.expect(0, "convert", "bad.off", "new.ply")
+        result = self.expect(BAD_INPUT, "convert", "bad.off", "new.smesh")
+        self.assertIn("closed", result.stderr)
+
+
 class Names(CliTest):
     """Which format is chosen, and what is said where there is none."""
 

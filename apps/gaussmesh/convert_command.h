@@ -1,0 +1,27 @@
+// `gaussmesh convert`: a mesh in another format.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaussmesh/write_mesh.h"
+
+namespace gaussmesh::app {
+
+struct ConvertOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::optional<std::string> molecule;  ///< gives the nearest atoms
+  bool no_header = false;
+  WriteOptions writing;
+};
+
+/// Adds the sub-command to the program; parsing fills `options`, which must outlive it. @return the sub-command
+CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options);
+
+/// Reads the mesh and writes it. @return the exit code @throws InputError, OptionError
+int run_convert(const ConvertOptions& options);
+
+}  // namespace gaussmesh::app

@@ -1,0 +1,46 @@
+#include "output_options.h"
+
+#include <filesystem>
+#include <set>
+
+#include "gaussmesh/error.h"
+
+namespace gaussmesh::app {
+
+std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
+  std::string names;
+  for (const MeshFormat& format : mesh_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return {command.add_option("--format", writing.format, "format of all meshes (" + names + "; else by extension)")
+              ->type_name("NAME"),
+          command.add_flag("--no-header", no_header,
+                           "MSMS files without their three lines of header, for PyGBe and pbj")};
+}
+
+WriteOptions writing_options(WriteOptions writing, bool no_header) {
+  writing.msms_header = !no_header;
+  return writing;
+}
+
+void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
+                              const WriteOptions& writing) {
+  std::set<std::filesystem::path> seen;
+  const auto require_new = [&](const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path place = file == "-" ? file : std::filesystem::weakly_canonical(file, error);
+    const bool is_device = std::filesystem::is_character_file(place, error);
+    if (!seen.insert(place).second && !is_device) {
+      throw OptionError("-o: expected each output once, got '" + file.string() + "' again");
+    }
+  };
+  for (const std::string& output : outputs) {
+    for (const std::filesystem::path& file : files_of(output, writing)) {
+      require_new(file);
+      require_writable(file);
+    }
+  }
+  if (report.empty()) return;
+  require_new(report);
+  require_writable(report);
+}
+
+}  // namespace gaussmesh::app

@@ -1,0 +1,25 @@
+// What the commands that write meshes share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "gaussmesh/write_mesh.h"
+
+namespace gaussmesh::app {
+
+/// Adds --format and --no-header; both variables must outlive the command. @return the options
+std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header);
+
+/// `writing` as it is meant, with the flag.
+WriteOptions writing_options(WriteOptions writing, bool no_header);
+
+/// Finds out before the work what cannot be written. `report` may be empty.
+///
+/// @throws OptionError for an unknown format, and where two outputs are one file
+/// @throws InputError  for a place that cannot be written to
+void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
+                              const WriteOptions& writing);
+
+}  // namespace gaussmesh::app

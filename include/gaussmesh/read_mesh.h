@@ -1,0 +1,54 @@
+// Reading meshes in the formats that write_mesh.h writes, and as other programs write them.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "gaussmesh/triangle_mesh.h"
+#include "gaussmesh/vertex_data.h"
+
+namespace gaussmesh {
+
+/// What a mesh file holds.
+struct MeshFile {
+  TriangleMesh mesh;
+  VertexData data;  ///< what the format has of it; lists that it has not are empty
+};
+
+/// Reads a mesh of triangles, plain or gzipped.
+///
+/// PLY and Gmsh files are known by their first bytes; OBJ, STL, TetGen .smesh and MSMS by their extension, in any
+/// case, before a `.gz` if there is one; every other file is read as OFF. Of MSMS either file may be named: both
+/// are read.
+///
+/// - OFF: as read_off() says.
+/// - PLY: ascii and binary of either byte order; other properties and elements are passed over.
+/// - OBJ: `v`, `vn` and `f`, the rest is passed over. Normals are kept where every corner has that of its vertex.
+/// - STL: binary and ascii. Corners at the very same place become one vertex, in the order in which they first
+/// appear;
+///   corners that are merely near each other do not.
+/// - Gmsh: versions 2.2 and 4.1 in ASCII. Triangles of 3 nodes are kept and elements of other kinds passed over;
+/// then
+///   nodes in no triangle are left out.
+/// - smesh: nodes and facets of one triangle each, counted from 0 or from 1.
+/// - MSMS: with header or without; normals, and the nearest atom where every vertex has one.
+///
+/// Normals are scaled to length 1. Nothing is judged here but the format: a vertex number that is too large is left to check_mesh() in all formats
+/// where vertices are numbered by their place.
+///
+/// @throws InputError if the file cannot be read, or is not what its format says; the message names the line, or
+/// the
+///         byte of a binary file. Polygons of more than three corners are refused.
+///
+/// Cost: one pass over the file in memory, about 0.1 us a triangle; STL sorts nothing, it hashes. Thread-safe.
+MeshFile read_mesh(const std::filesystem::path& path);
+
+/// Reads what is already in memory, except MSMS, which is two files; `name` decides the format as above, and stands
+/// for the file in messages.
+MeshFile parse_mesh(std::string_view bytes, std::string_view name);
+
+/// Reads the two texts of MSMS.
+MeshFile parse_msms(std::string_view vertices, std::string_view vertices_name, std::string_view faces,
+                    std::string_view faces_name);
+
+}  // namespace gaussmesh

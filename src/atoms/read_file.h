@@ -1,0 +1,22 @@
+// Files and streams as text in memory, expanded where they are gzip.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace gaussmesh {
+
+/// The whole file. Gzip is known by its first bytes; data that expand to more than 64 MiB and 200-fold are refused.
+///
+/// @throws InputError if it is missing, a directory, unreadable, or corrupt gzip
+std::string read_file(const std::filesystem::path& path);
+
+/// What is left of `input`, in the same way; `name` stands for it in messages.
+std::string read_stream(std::istream& input, std::string_view name);
+
+/// Whether `name` ends in `extension`, in any case, perhaps before a `.gz`. `extension` has its dot.
+bool has_extension(std::string_view name, std::string_view extension);
+
+}  // namespace gaussmesh

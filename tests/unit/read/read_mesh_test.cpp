@@ -1,0 +1,246 @@
+#include "gaussmesh/read_mesh.h"
+
+#include <zlib.h>
+
+#include "catch2.h"
+#include "gaussmesh/error.h"
+#include "gaussmesh/write_mesh.h"
+#include "support/folder.h"
+#include "support/random.h"
+#include "unit/verify/shapes.h"
+
+using namespace gaussmesh;
+using namespace std::string_literals;
+using testing::Folder;
+
+namespace {
+
+/// Two components with coordinates of any size, and something known at every vertex.
+MeshFile sample() {
+  MeshFile file;
+  file.mesh = shapes::together(shapes::icosphere(2, 1.0 / 3.0), shapes::moved(shapes::cube(0.1), {1e5, -2e-7, 9}));
+  file.data.normals = average_normals(file.mesh);
+  file.data.components = find_vertex_components(file.mesh, check_mesh(file.mesh));
+  for (std::uint32_t v = 0; v < file.mesh.vertices.size(); ++v) file.data.atoms.push_back(7 * v % 100);
+  return file;
+}
+
+MeshFile write_and_read(const MeshFile& file, const std::string& format, const std::string& name) {
+  const Folder folder;
+  write_mesh(file.mesh, file.data, folder / name, {.format = format});
+  return read_mesh(folder / name);
+}
+
+void check_normals(const std::vector<Normal>& got, const std::vector<Normal>& wanted, float tolerance) {
+  REQUIRE(got.size() == wanted.size());
+  for (std::size_t v = 0; v < got.size(); ++v)
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(got[v][k] - wanted[v][k]) <= tolerance);
+}
+
+/// The message of the InputError that reading must end in.
+std::string message(std::string_view bytes, std::string_view name) {
+  try {
+    parse_mesh(bytes, name);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string big_endian(const std::string& bytes) { return {bytes.rbegin(), bytes.rend()}; }
+
+template <class Number>
+std::string bytes_of(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
+const TriangleMesh kTetrahedron = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                   {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+
+}  // namespace
+
+TEST_CASE("every format gives back the same bits") {
+  const MeshFile file = sample();
+  const std::pair<std::string, std::string> formats[] = {
+      {"off", "m.off"},    {"ply", "m.ply"},     {"ply-ascii", "m"}, {"obj", "m.obj"},
+      {"gmsh22", "m.msh"}, {"smesh", "m.smesh"}, {"msms", "m.vert"}};
+  for (const auto& [format, name] : formats) {
+    CAPTURE(format);
+    const MeshFile back = write_and_read(file, format, name);
+    CHECK(back.mesh.vertices == file.mesh.vertices);
+    CHECK(back.mesh.triangles == file.mesh.triangles);
+  }
+}
+
+TEST_CASE("Gmsh 4.1 gives back the same places, by component") {
+  const MeshFile file = sample();
+  const MeshFile back = write_and_read(file, "gmsh41", "m.msh");
+  REQUIRE(back.mesh.triangles.size() == file.mesh.triangles.size());
+  std::vector<std::array<Point, 3>> places[2];
+  for (const auto& [mesh, list] : {std::pair{&file.mesh, &places[0]}, std::pair{&back.mesh, &places[1]}}) {
+    for (const auto& [a, b, c] : mesh->triangles)
+      list->push_back({mesh->vertices[a], mesh->vertices[b], mesh->vertices[c]});
+    std::sort(list->begin(), list->end());
+  }
+  CHECK(places[0] == places[1]);
+}
+
+TEST_CASE("STL gives back floats, welded where they are equal and only there") {
+  const MeshFile file = sample();
+  const MeshFile back = write_and_read(file, "stl", "m.stl");
+  CHECK(back.mesh.vertices.size() == file.mesh.vertices.size());
+  REQUIRE(back.mesh.triangles.size() == file.mesh.triangles.size());
+  for (std::size_t t = 0; t < back.mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Point& got = back.mesh.vertices[back.mesh.triangles[t][k]];
+      const Point& wanted = file.mesh.vertices[file.mesh.triangles[t][k]];
+      for (int axis = 0; axis < 3; ++axis) CHECK(static_cast<float>(got[axis]) == static_cast<float>(wanted[axis]));
+    }
+  }
+  const MeshFile again = write_and_read(back, "stl", "m.stl");
+  CHECK(again.mesh.vertices == back.mesh.vertices);
+  CHECK(again.mesh.triangles == back.mesh.triangles);
+}
+
+TEST_CASE("vertex data come back where the format holds them") {
+  const MeshFile file = sample();
+  for (const auto& [format, name] : {std::pair{"ply", "m.ply"}, {"ply-ascii", "m.ply"}}) {
+    CAPTURE(format);
+    const MeshFile back = write_and_read(file, format, name);
+    check_normals(back.data.normals, file.data.normals, 1e-9f);
+    CHECK(back.data.atoms == file.data.atoms);
+    CHECK(back.data.components == file.data.components);
+  }
+  const MeshFile msms = write_and_read(file, "msms", "m.face");
+  check_normals(msms.data.normals, file.data.normals, 1e-9f);
+  CHECK(msms.data.atoms == file.data.atoms);
+  CHECK(msms.data.components.empty());
+  check_normals(write_and_read(file, "obj", "m.obj").data.normals, file.data.normals, 1e-9f);
+  CHECK(write_and_read(file, "off", "m.off").data.normals.empty());
+}
+
+TEST_CASE("MSMS without header, and without spheres") {
+  const Folder folder;
+  write_mesh(kTetrahedron, {}, folder / "t.vert", {.format = "", .msms_header = false});
+  const MeshFile back = read_mesh(folder / "t.vert");
+  CHECK(back.mesh.vertices == kTetrahedron.vertices);
+  CHECK(back.mesh.triangles == kTetrahedron.triangles);
+  CHECK(back.data.atoms.empty());
+  CHECK(back.data.normals.size() == 4);
+}
+
+TEST_CASE("gzipped files") {
+  const Folder folder;
+  write_mesh(kTetrahedron, {}, folder / "t.obj");
+  const std::string text = testing::read_file(folder / "t.obj");
+  gzFile packed = gzopen((folder / "u.obj.gz").c_str(), "wb");
+  gzwrite(packed, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(packed);
+  CHECK(read_mesh(folder / "u.obj.gz").mesh.triangles == kTetrahedron.triangles);
+}
+
+TEST_CASE("OBJ as other programs write it") {
+  const char* text =
+      "# comment\nmtllib x.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n"
+      "s off\nf 1/1/1 2/1/2 3/1/3\nf -3 -2 -1\nf 1// 2/1 3\n";
+  CHECK(message(text, "a.obj").find("a.obj:14: expected a triangle") == 0);  // 1// has no normal behind the slashes
+  const MeshFile file = parse_mesh(std::string_view(text).substr(0, std::string_view(text).rfind('f')), "a.obj");
+  CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}});
+  CHECK(file.data.normals.empty());  // the second triangle has none
+  CHECK(message("v 0 0 0\nf 1 1 1 1\n", "a.obj").find("a.obj:2: expected a triangle") == 0);
+  CHECK(message("v 0 0 nan\n", "a.obj").find("a.obj:1: expected 'v'") == 0);
+  CHECK(message("v 0 0 0\nf 0 1 1\n", "a.obj").find("a.obj:2:") == 0);
+  CHECK(message("v 0 0 0\nf -2 1 1\n", "a.obj").find("a.obj:2:") == 0);
+}
+
+TEST_CASE("normals of any length are made unit vectors") {
+  const MeshFile file =
+      parse_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nvn 0 0 0\nvn 1e300 0 0\nf 1//1 2//2 3//3\n", "n.obj");
+  CHECK(file.data.normals == std::vector<Normal>{{0.0f, 0.6f, 0.8f}, {0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}});
+}
+
+TEST_CASE("PLY as other programs write it") {
+  const std::string header =
+      "ply\r\nformat binary_big_endian 1.0\r\ncomment made by hand\r\nelement vertex 3\r\nproperty uchar red\r\n"
+      "property float32 x\r\nproperty float y\r\nproperty double z\r\nelement edge 1\r\nproperty int v\r\n"
+      "element face 1\r\nproperty list uint8 int16 vertex_index\r\nproperty list uchar float "
+      "texcoord\r\nend_header\r\n";
+  std::string body;
+  for (int v = 0; v < 3; ++v) {
+    for (const std::string& bytes : {bytes_of('r'), bytes_of(float(v)), bytes_of(0.5f), bytes_of(double(v * v))})
+      body += big_endian(bytes);
+  }
+  body += big_endian(bytes_of(std::int32_t{9}));  // the edge
+  body += bytes_of(std::int8_t{3});
+  for (std::int16_t v = 0; v < 3; ++v) body += big_endian(bytes_of(v));
+  body += bytes_of(std::int8_t{1});
+  body += big_endian(bytes_of(0.0f));
+  const MeshFile file = parse_mesh(header + body, "any name");
+  CHECK(file.mesh.vertices == std::vector<Point>{{0, 0.5, 0}, {1, 0.5, 1}, {2, 0.5, 4}});
+  CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(message(header + body.substr(0, body.size() - 1), "a.ply").find("a.ply: expected more data") == 0);
+}
+
+TEST_CASE("PLY that is none names the line or the byte") {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(message(header + "0 0 0\n4 0 0 0 0\n", "a").find("a:11: expected a triangle") == 0);
+  CHECK(message(header + "0 0 x\n3 0 0 0\n", "a").find("a:10: expected a finite number") == 0);
+  CHECK(message(header + "0 0 0\n3 0 -1 0\n", "a").find("a:11: expected a number counted from 0") == 0);
+  CHECK(message("ply\nformat ascii 2.0\n", "a").find("a:2: expected 'format'") == 0);
+  CHECK(message("ply\nformat ascii 1.0\nend_header\n", "a").find("a: expected elements") == 0);
+  CHECK(
+      message("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n", "a").find("a:4: expected a property") ==
+      0);
+  CHECK(message("ply\nformat ascii 1.0\n", "a").find("a:2: expected 'end_header'") == 0);
+}
+
+TEST_CASE("STL in ascii, and binary that begins like it") {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1e0 0 0\nvertex 0 1 -0\nendloop\nendfacet\n";
+  CHECK(parse_mesh("solid thing\n" + facet + "endsolid\n", "a.stl").mesh.vertices.size() == 3);
+  CHECK(message("solid\nfacet\nvertex 0 0 0\nendfacet\n", "a.stl").find("a.stl:4: expected three lines") == 0);
+  std::string binary = "solid but binary";
+  binary.resize(80, ' ');
+  binary += bytes_of(std::uint32_t{1});
+  for (int i = 0; i < 12; ++i) binary += bytes_of(static_cast<float>(i % 5));
+  CHECK(parse_mesh(binary + "\0\0"s, "a.stl").mesh.triangles.size() == 1);
+  CHECK(message(binary, "b.stl").find("b.stl") == 0);
+}
+
+TEST_CASE("Gmsh files with other elements give their triangles alone") {
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"skin\"\n$EndPhysicalNames\n"
+      "$Nodes\n4\n5 9 9 9\n10 0 0 0\n30 1 0 0\n20 0 1 0\n$EndNodes\n$Elements\n2\n";
+  const MeshFile file = parse_mesh(head + "1 15 2 0 1 5\n2 2 2 0 1 10 30 20\n$EndElements\n", "a.msh");
+  CHECK(file.mesh.vertices == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(message(head + "1 2 2 0 1 10 30 21\n", "a.msh").find("a.msh:17: expected an element") == 0);
+  CHECK(message("$MeshFormat\n2.2 1 8\n", "a.msh").find("a.msh:2: expected version 2.2 or 4.1 in ASCII") == 0);
+  CHECK(message("$MeshFormat\n4.1 0 8\n", "a.msh").find("expected the sections") != std::string::npos);
+}
+
+TEST_CASE("smesh counted from 1, with comments") {
+  const MeshFile file =
+      parse_mesh("# nodes\n3 3 0 0\n1 0 0 0\n2 1 0 0 # second\n3 0 1 0\n1 0\n3 1 2 3\n0\n0\n", "a.smesh");
+  CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(message("2 3\n1 0 0 0\n3 1 0 0\n", "a.smesh").find("a.smesh:3: expected a node") == 0);
+  CHECK(message("1 3\n1 0 0 0\n1\n3 0 1 1\n", "a.smesh").find("a.smesh:4: expected a triangle") == 0);
+}
+
+TEST_CASE("MSMS that is none") {
+  const auto told = [](std::string_view vertices, std::string_view faces) {
+    try {
+      parse_msms(vertices, "a.vert", faces, "a.face");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string vertex = "0 0 0 0 0 1 0 1 3\n";
+  CHECK(told("# \n# \n2 1 0 0\n" + vertex, "").find("a.vert: expected 2 vertices") == 0);
+  CHECK(told(vertex, "0 1 1 1 1\n").find("a.face:1: expected a face") == 0);
+  CHECK(told("0 0 0\n", "").find("a.vert:1: expected a vertex") == 0);
+  CHECK_THROWS_AS(read_mesh("no_such.face"), InputError);
+}
