@@ -136,7 +136,7 @@ void verify(const MeshResult& result, const std::vector<Atom>& atoms, MeshReport
     throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
   }
   report.vertex_distance_max =
-      distance_to_surface(result.mesh, atoms, report.options.decay, report.isovalue_used).max_vertex_distance;
+      vertex_distance_to_surface(result.mesh, atoms, report.options.decay, report.isovalue_used).max;
   if (!(report.vertex_distance_max <= kVertexTolerance)) {
     throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
                         " A away from the surface: please report this molecule");

@@ -36,14 +36,6 @@ std::vector<AtomTree::Group> AtomTree::group(const std::vector<Group>& members) 
   return groups;
 }
 
-/// An upper bound, met by a single atom, of the exponents of the group's atoms at the points of `place`.
-double AtomTree::largest_exponent(const Group& group, const Box& place) {
-  double distance_sq = 0.0;
-  for (int k = 0; k < 3; ++k)
-    distance_sq += squared(std::max({0.0, group.box.low[k] - place.high[k], place.low[k] - group.box.high[k]}));
-  return group.radius_sq - distance_sq;
-}
-
 /// Goes first to the groups that promise most, and not to those that promise less than is already found.
 AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const Box& place, Best best) const {
   if (level == 0) {

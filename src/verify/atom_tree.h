@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "gaussmesh/atom.h"
@@ -22,8 +23,8 @@ class AtomTree {
 
   std::size_t atom_count() const { return atoms_.size(); }
 
-  /// The number, in the list that the tree was made of, of the atom with the largest exponent at `point`; of several
-  /// one, always the same.
+  /// The number, in the list that the tree was made of, of the atom with the largest exponent at `point`; of
+  /// several one, always the same.
   std::uint32_t nearest(const Point& point) const;
 
   /// Calls visit(atom) for every atom whose exponent is, at some point of `place`, less than `range` below the
@@ -31,6 +32,15 @@ class AtomTree {
   template <class Visit>
   void for_each_near(const Box& place, double range, const Visit& visit) const {
     visit_below(levels_.size(), 0, place, least_largest_exponent(place) - range, visit);
+  }
+
+  /// Calls visit(atoms), with some neighbours at a time, so that every atom is visited whose exponent is at least
+  /// `least` at some point of `place`, and some others; and for all that are not visited leave_out(exponent,
+  /// count): so many atoms at most, whose exponents are nowhere in `place` larger than that.
+  template <class Visit, class LeaveOut>
+  void for_each_group_reaching(const Box& place, double least, const Visit& visit,
+                               const LeaveOut& leave_out) const {
+    visit_groups_below(levels_.size(), 0, place, least, visit, leave_out);
   }
 
  private:
@@ -54,7 +64,17 @@ class AtomTree {
   static constexpr std::size_t kFanOut = 4;  // atoms in a group of the lowest level, groups in one of the next
 
   static Group group_of(const Atom& atom);
-  static double largest_exponent(const Group& group, const Box& place);
+
+  /// An upper bound, met by a single atom, of the exponents of the group's atoms at the points of `place`.
+  static double largest_exponent(const Group& group, const Box& place) {
+    double distance_sq = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double gap = std::max({0.0, group.box.low[k] - place.high[k], place.low[k] - group.box.high[k]});
+      distance_sq += gap * gap;
+    }
+    return group.radius_sq - distance_sq;
+  }
+
   static std::vector<Group> group(const std::vector<Group>& members);
 
   Best best_below(std::size_t level, std::size_t index, const Box& place, Best best) const;
@@ -77,6 +97,23 @@ class AtomTree {
     const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
     for (std::size_t child = index * kFanOut; child < end; ++child)
       visit_below(level - 1, child, place, least, visit);
+  }
+
+  template <class Visit, class LeaveOut>
+  void visit_groups_below(std::size_t level, std::size_t index, const Box& place, double least, const Visit& visit,
+                          const LeaveOut& leave_out) const {
+    constexpr std::size_t kVisited = 2;                       // the level whose groups are visited whole
+    const std::size_t under = std::size_t{1} << (2 * level);  // 4^level atoms
+    const double largest = largest_exponent(levels_[level - 1][index], place);
+    if (largest < least) {
+      leave_out(largest, under);
+    } else if (level <= kVisited) {
+      visit(std::span(atoms_).subspan(index * under, std::min(under, atoms_.size() - index * under)));
+    } else {
+      const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
+      for (std::size_t child = index * kFanOut; child < end; ++child)
+        visit_groups_below(level - 1, child, place, least, visit, leave_out);
+    }
   }
 
   std::vector<std::uint32_t> order_;        // numbers of the atoms along the curve

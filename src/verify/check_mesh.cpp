@@ -4,14 +4,15 @@
 #include "gaussmesh/check_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <string>
 
 #include "gaussmesh/error.h"
 #include "verify/component_geometry.h"
+#include "verify/duplicates.h"
 #include "verify/edge_topology.h"
 #include "verify/exact_orientation.h"
+#include "verify/flat_fans.h"
 #include "verify/intersections.h"
 #include "verify/shape.h"
 #include "verify/triangle_tree.h"
@@ -62,55 +63,23 @@ UsableTriangles find_usable_triangles(const TriangleMesh& mesh) {
   return result;
 }
 
-bool all_are_usable(const TriangleMesh& mesh) {
+/// @param bad_coordinates  how many vertices have such
+bool all_are_usable(const TriangleMesh& mesh, std::size_t bad_coordinates) {
+  if (bad_coordinates != 0) return false;
   std::size_t faults = 0;
-#pragma omp parallel for reduction(+ : faults)
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    faults += fault_of(mesh, mesh.triangles[t]) != TriangleFault::kNone;
+#pragma omp parallel for schedule(static) reduction(+ : faults)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    faults += std::max({a, b, c}) >= mesh.vertices.size() || a == b || b == c || c == a;
+  }
   return faults == 0;
 }
 
-std::size_t count_zero_areas(const TriangleMesh& mesh) {
-  std::size_t count = 0;
-#pragma omp parallel for reduction(+ : count)
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    count += are_collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-  }
-  return count;
-}
-
 std::size_t count_bad_coordinates(const std::vector<Point>& points) {
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const Point& p) { return !is_exact_point(p); }));
-}
-
-/// Equal points have equal hashes, 0 and -0 too. The multiplier is that of the SplitMix64 generator's first step.
-std::uint64_t hash_of(const Point& point) {
-  std::uint64_t hash = 0;
-  for (const double x : point) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0xBF58476D1CE4E5B9u;
-    hash ^= hash >> 31;
-  }
-  return hash;
-}
-
-/// Vertices at the very place of another before them, by a hash table with open addresses.
-std::size_t count_duplicates(const std::vector<Point>& points) {
-  constexpr std::uint32_t kFree = 0;
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * points.size() + 1), kFree);  // else a vertex number plus 1
-  std::size_t duplicates = 0;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (!is_exact_point(points[i])) continue;
-    std::size_t slot = hash_of(points[i]) & (table.size() - 1);
-    while (table[slot] != kFree && points[table[slot] - 1] != points[i]) slot = (slot + 1) & (table.size() - 1);
-    if (table[slot] == kFree) {
-      table[slot] = i + 1;
-    } else {
-      ++duplicates;
-    }
-  }
-  return duplicates;
+  std::size_t count = 0;
+#pragma omp parallel for schedule(static) reduction(+ : count)
+  for (std::size_t i = 0; i < points.size(); ++i) count += !is_exact_point(points[i]);
+  return count;
 }
 
 MeshComponent describe(const ComponentTopology& topology, const ComponentGeometry& geometry) {
@@ -136,8 +105,8 @@ void add_edge_topology(const EdgeTopology& topology, MeshCheck& check) {
   check.isolated_vertices = topology.isolated_vertices;
 }
 
-/// The component that a component lies directly inside of: the one at the next smaller depth. Where components cross
-/// each other there may be none.
+/// The component that a component lies directly inside of: the one at the next smaller depth. Where components
+/// cross each other there may be none.
 std::optional<std::uint32_t> parent_of(const ComponentGeometry& component,
                                        const std::vector<ComponentGeometry>& geometry) {
   for (const std::uint32_t other : component.around)
@@ -169,18 +138,35 @@ void add_components(EdgeTopology& topology, const std::vector<ComponentGeometry>
     if (const auto parent = parent_of(geometry[c], geometry)) check.components.back().parent = place[*parent];
   }
   check.component_of = std::move(topology.component_of);
-  for (std::uint32_t& component : check.component_of) component = place[component];
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < check.component_of.size(); ++t) check.component_of[t] = place[check.component_of[t]];
+}
+
+/// What is read off the stars of the vertices; these themselves are needed no longer.
+struct Connections {
+  EdgeTopology topology;
+  FanFacts fans;
+};
+
+Connections find_connections(const TriangleMesh& mesh) {
+  const VertexStars stars(mesh);
+  Connections result;
+  result.topology = find_edge_topology(mesh, stars);
+  result.fans = find_flat_fans(mesh, stars, result.topology);
+  return result;
 }
 
 /// Judges a mesh in which every triangle has three different vertices, all there, with exact coordinates.
 MeshCheck check_usable(const TriangleMesh& mesh) {
   MeshCheck check = measure_shape(mesh);
-  check.degenerate_triangles = count_zero_areas(mesh);
-  EdgeTopology topology = find_edge_topology(mesh);
+  Connections connections = find_connections(mesh);
+  EdgeTopology& topology = connections.topology;
   add_edge_topology(topology, check);
+  check.degenerate_triangles =
+      static_cast<std::size_t>(std::count(connections.fans.turns.begin(), connections.fans.turns.end(), Turns{0}));
   const TriangleTree tree(mesh);
   add_components(topology, measure_components(mesh, topology, tree), check);
-  Intersections intersections = find_intersections(mesh, tree);
+  Intersections intersections = find_intersections(mesh, tree, connections.fans);
   check.intersecting_pairs = intersections.pairs;
   check.intersecting_examples = std::move(intersections.examples);
   return check;
@@ -209,10 +195,11 @@ MeshCheck check_usable_part(const TriangleMesh& mesh) {
 MeshCheck check_mesh(const TriangleMesh& mesh) {
   require_countable(mesh.triangles.size(), "triangles");
   require_countable(mesh.vertices.size(), "vertices");
-  MeshCheck check = all_are_usable(mesh) ? check_usable(mesh) : check_usable_part(mesh);
+  const std::size_t bad_coordinates = count_bad_coordinates(mesh.vertices);
+  MeshCheck check = all_are_usable(mesh, bad_coordinates) ? check_usable(mesh) : check_usable_part(mesh);
   check.vertices = mesh.vertices.size();
   check.triangles = mesh.triangles.size();
-  check.bad_coordinates = count_bad_coordinates(mesh.vertices);
+  check.bad_coordinates = bad_coordinates;
   check.duplicate_vertices = count_duplicates(mesh.vertices);
   return check;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "verify/exact_orientation.h"
 #include "verify/vector3.h"
@@ -21,6 +22,15 @@ struct Sums {
   double product_size = 0.0;  // sum over the triangles of six products' sizes: what rounding is in proportion to
 };
 
+constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+
+void add_sums(Sums& to, const Sums& from) {
+  to.triangles += from.triangles;
+  to.area += from.area;
+  to.volume += from.volume;
+  to.product_size += from.product_size;
+}
+
 void add_triangle(Sums& sums, const Point& a, const Point& b, const Point& c) {
   const Point ab = difference(b, a);
   const Point ac = difference(c, a);
@@ -32,14 +42,54 @@ void add_triangle(Sums& sums, const Point& a, const Point& b, const Point& c) {
   sums.product_size += size(ab) * size(ac) * size(arm) / 6;
 }
 
-std::vector<Sums> sum_components(const TriangleMesh& mesh, const EdgeTopology& topology) {
-  std::vector<Sums> sums(topology.components.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+/// Each component's first triangle's first vertex.
+std::vector<Point> find_origins(const TriangleMesh& mesh, const EdgeTopology& topology) {
+  std::vector<Point> origins;
+  for (std::size_t t = 0; t < mesh.triangles.size() && origins.size() < topology.components.size(); ++t)
+    if (topology.component_of[t] == origins.size()) origins.push_back(mesh.vertices[mesh.triangles[t][0]]);
+  return origins;
+}
+
+/// Sums of one chunk of triangles, for the components that are in it.
+struct ChunkSums {
+  std::vector<std::uint32_t> components;
+  std::vector<Sums> sums;
+};
+
+/// @param place_of  room for a number for each component, kNowhere in all; so it is left
+ChunkSums sum_chunk(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<Point>& origins,
+                    std::size_t begin, std::size_t end, std::vector<std::uint32_t>& place_of) {
+  ChunkSums chunk;
+  for (std::size_t t = begin; t < end; ++t) {
+    const std::uint32_t component = topology.component_of[t];
+    if (place_of[component] == kNowhere) {
+      place_of[component] = static_cast<std::uint32_t>(chunk.components.size());
+      chunk.components.push_back(component);
+      chunk.sums.emplace_back().origin = origins[component];
+    }
     const auto& [a, b, c] = mesh.triangles[t];
-    Sums& mine = sums[topology.component_of[t]];
-    if (mine.triangles == 0) mine.origin = mesh.vertices[a];
-    add_triangle(mine, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    add_triangle(chunk.sums[place_of[component]], mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
+  for (const std::uint32_t component : chunk.components) place_of[component] = kNowhere;
+  return chunk;
+}
+
+std::vector<Sums> sum_components(const TriangleMesh& mesh, const EdgeTopology& topology) {
+  constexpr std::size_t kTrianglesInChunk = 8192;
+  const std::vector<Point> origins = find_origins(mesh, topology);
+  std::vector<ChunkSums> chunks((mesh.triangles.size() + kTrianglesInChunk - 1) / kTrianglesInChunk);
+#pragma omp parallel
+  {
+    std::vector<std::uint32_t> place_of(origins.size(), kNowhere);
+#pragma omp for schedule(static)
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+      chunks[i] = sum_chunk(mesh, topology, origins, i * kTrianglesInChunk,
+                            std::min((i + 1) * kTrianglesInChunk, mesh.triangles.size()), place_of);
+  }
+  std::vector<Sums> sums(origins.size());
+  for (std::size_t c = 0; c < sums.size(); ++c) sums[c].origin = origins[c];
+  for (const ChunkSums& chunk : chunks)
+    for (std::size_t i = 0; i < chunk.components.size(); ++i) add_sums(sums[chunk.components[i]], chunk.sums[i]);
   return sums;
 }
 
@@ -95,8 +145,8 @@ std::vector<std::uint32_t> find_components_around(const Point& p, const Triangle
                                                   const std::vector<bool>& is_closed, const TriangleTree& tree) {
   std::vector<std::uint32_t> crossed;
   const Box ray{p, {p[0], p[1], std::numeric_limits<double>::infinity()}};
-  tree.for_each_block_meeting(ray, 0, [&](std::size_t block) {
-    for (const std::uint32_t t : tree.block(block)) {
+  tree.for_each_block_meeting(ray, 0, [&](std::span<const std::uint32_t> block) {
+    for (const std::uint32_t t : block) {
       const std::uint32_t component = component_of[t];
       if (!is_closed[component]) continue;
       const auto& [a, b, c] = mesh.triangles[t];

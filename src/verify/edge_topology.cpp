@@ -1,36 +1,18 @@
-// Everything is read off the stars of the vertices, one after another. The edges at a vertex are found by sorting
-// the far ends of its triangles' sides; an edge is counted at the lower of its two vertices.
+// Everything is read off the stars of the vertices, one after another. Nearly all are one closed fan, which a walk
+// round the vertex shows. At the others the edges are found by sorting the far ends of the triangles' sides; an
+// edge is counted at the lower of its two vertices, and no edge that is not in two triangles ends at a closed fan.
 
 #include "verify/edge_topology.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace gaussmesh {
 namespace {
-
-/// The triangles at each vertex, in one array.
-class VertexStars {
- public:
-  explicit VertexStars(const TriangleMesh& mesh)
-      : start_(mesh.vertices.size() + 1), triangles_(3 * mesh.triangles.size()) {
-    for (const Triangle& triangle : mesh.triangles)
-      for (const std::uint32_t vertex : triangle) ++start_[vertex];
-    std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
-    for (std::size_t t = mesh.triangles.size(); t-- > 0;)  // backwards, so that each star is in rising order
-      for (const std::uint32_t vertex : mesh.triangles[t])
-        triangles_[--start_[vertex]] = static_cast<std::uint32_t>(t);
-  }
-
-  std::span<const std::uint32_t> star(std::size_t vertex) const {
-    return {triangles_.data() + start_[vertex], start_[vertex + 1] - start_[vertex]};
-  }
-
- private:
-  std::vector<std::size_t> start_;
-  std::vector<std::uint32_t> triangles_;
-};
 
 /// A side of a triangle at a vertex, seen from there.
 struct Spoke {
@@ -45,10 +27,9 @@ class SpokeList {
   void fill(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std::uint32_t vertex) {
     spokes_.clear();
     for (std::uint32_t place = 0; place < star.size(); ++place) {
-      const Triangle& triangle = mesh.triangles[star[place]];
-      const int k = triangle[0] == vertex ? 0 : triangle[1] == vertex ? 1 : 2;
-      spokes_.push_back({triangle[(k + 1) % 3], place, true});
-      spokes_.push_back({triangle[(k + 2) % 3], place, false});
+      const auto [next, last] = others(mesh.triangles[star[place]], vertex);
+      spokes_.push_back({next, place, true});
+      spokes_.push_back({last, place, false});
     }
     std::sort(spokes_.begin(), spokes_.end(),
               [](const Spoke& a, const Spoke& b) { return a.to != b.to ? a.to < b.to : a.place < b.place; });
@@ -91,6 +72,30 @@ class SpokeList {
   std::vector<std::size_t> first_at_;  // place of a triangle in the star -> its first spoke
 };
 
+/// Whether the triangles at `vertex` are one closed fan in which all turn the same way: from the triangle that runs
+/// from the vertex to a and on to b, the walk goes to the one that runs to b first. If it is back where it began
+/// after as many steps as there are triangles, and not before, it has been in each once; so of any two triangles no
+/// two run to the same vertex, and every edge here is in two triangles that run through it in opposite directions.
+bool is_closed_fan(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std::uint32_t vertex) {
+  constexpr std::size_t kMost = 32;  // triangles; a larger star takes the other way
+  if (star.empty() || star.size() > kMost) return false;
+  std::array<std::uint32_t, kMost> from;
+  std::array<std::uint32_t, kMost> to;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const auto [next, last] = others(mesh.triangles[star[i]], vertex);
+    from[i] = next;
+    to[i] = last;
+  }
+  std::size_t at = 0;
+  for (std::size_t step = 1; step <= star.size(); ++step) {
+    const auto found = std::find(from.begin(), from.begin() + star.size(), to[at]);
+    at = static_cast<std::size_t>(found - from.begin());
+    if (at == star.size()) return false;
+    if (at == 0) return step == star.size();
+  }
+  return false;
+}
+
 /// An edge that is not in exactly two triangles running through it in opposite directions.
 struct IrregularEdge {
   std::uint32_t triangle = 0;  // one that it is in
@@ -112,11 +117,14 @@ void count_edge(std::span<const Spoke> edge, std::uint32_t triangle, Tally& tall
   tally.irregular_edges.push_back({triangle, static_cast<std::uint32_t>(edge.size())});
 }
 
-void count_vertex(std::span<const std::uint32_t> star, std::uint32_t vertex, SpokeList& spokes, Tally& tally) {
+void count_vertex(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std::uint32_t vertex,
+                  SpokeList& spokes, Tally& tally) {
   if (star.empty()) {
     ++tally.counts.isolated_vertices;
     return;
   }
+  if (is_closed_fan(mesh, star, vertex)) return;
+  spokes.fill(mesh, star, vertex);
   bool all_in_two = true;
   spokes.for_each_edge([&](std::span<const Spoke> edge) {
     all_in_two = all_in_two && edge.size() == 2;
@@ -139,9 +147,7 @@ Tally count_all(const TriangleMesh& mesh, const VertexStars& stars) {
     SpokeList spokes;
     const std::size_t end = std::min((chunk + 1) * kVerticesInChunk, mesh.vertices.size());
     for (std::size_t v = chunk * kVerticesInChunk; v < end; ++v) {
-      const auto vertex = static_cast<std::uint32_t>(v);
-      spokes.fill(mesh, stars.star(v), vertex);
-      count_vertex(stars.star(v), vertex, spokes, tallies[chunk]);
+      count_vertex(mesh, stars.star(v), static_cast<std::uint32_t>(v), spokes, tallies[chunk]);
     }
   }
   Tally all;
@@ -157,76 +163,110 @@ Tally count_all(const TriangleMesh& mesh, const VertexStars& stars) {
   return all;
 }
 
-/// Sets of triangles that grow together; each is known by its lowest member.
+/// Sets of triangles that grow together, on several threads at once; each is known by its lowest member, so that
+/// what comes out does not depend on who came first.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
+  void unite(std::uint32_t i, std::uint32_t j) {
+    for (i = find(i), j = find(j); i != j; i = find(i), j = find(j)) {
+      if (i < j) std::swap(i, j);
+      std::uint32_t root = i;
+      if (at(i).compare_exchange_strong(root, j, std::memory_order_relaxed)) return;
+    }
+  }
+
+  /// The parent of each triangle: never larger than itself, and itself only for the lowest of a set.
+  std::vector<std::uint32_t> take_parents() && { return std::move(parent_); }
+
+ private:
+  std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref<std::uint32_t>(parent_[i]); }
+  std::uint32_t parent_of(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
+
   std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    for (std::uint32_t parent = parent_of(i); parent != i; parent = parent_of(i)) {
+      const std::uint32_t above = parent_of(parent);
+      if (above != parent) at(i).store(above, std::memory_order_relaxed);
+      i = above;
+    }
     return i;
   }
 
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
   std::vector<std::uint32_t> parent_;
 };
 
 /// Puts the triangles that share an edge into one set. Round a manifold vertex that is all of them.
+void unite_star(const TriangleMesh& mesh, const VertexStars& stars, std::uint32_t vertex, bool is_manifold,
+                SpokeList& spokes, DisjointSets& sets) {
+  const auto star = stars.star(vertex);
+  if (is_manifold) {
+    for (const std::uint32_t triangle : star) sets.unite(star.front(), triangle);
+    return;
+  }
+  spokes.fill(mesh, star, vertex);
+  spokes.for_each_edge([&](std::span<const Spoke> edge) {
+    for (const Spoke& spoke : edge) sets.unite(star[edge.front().place], star[spoke.place]);
+  });
+}
+
 DisjointSets unite_neighbours(const TriangleMesh& mesh, const VertexStars& stars,
                               const std::vector<std::uint32_t>& nonmanifold_vertices) {
   DisjointSets sets(mesh.triangles.size());
-  SpokeList spokes;
-  auto next = nonmanifold_vertices.begin();
-  for (std::uint32_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
-    const auto star = stars.star(vertex);
-    if (next == nonmanifold_vertices.end() || *next != vertex) {
-      for (const std::uint32_t triangle : star) sets.unite(star.front(), triangle);
-      continue;
+#pragma omp parallel
+  {
+    SpokeList spokes;
+#pragma omp for schedule(static)
+    for (std::size_t v = 0; v < stars.vertex_count(); ++v) {
+      const auto vertex = static_cast<std::uint32_t>(v);
+      const bool is_manifold =
+          nonmanifold_vertices.empty() ||
+          !std::binary_search(nonmanifold_vertices.begin(), nonmanifold_vertices.end(), vertex);
+      unite_star(mesh, stars, vertex, is_manifold, spokes, sets);
     }
-    ++next;
-    spokes.fill(mesh, star, vertex);
-    spokes.for_each_edge([&](std::span<const Spoke> edge) {
-      for (const Spoke& spoke : edge) sets.unite(star[edge.front().place], star[spoke.place]);
-    });
   }
   return sets;
 }
 
-/// Numbers the components in the order of their first triangles.
+/// Numbers the components in the order of their first triangles: a parent has its number before its children.
 void label_components(DisjointSets sets, EdgeTopology& result) {
+  result.component_of = std::move(sets).take_parents();
   for (std::uint32_t t = 0; t < result.component_of.size(); ++t) {
-    const std::uint32_t first = sets.find(t);
-    if (first == t) {
-      result.component_of[t] = static_cast<std::uint32_t>(result.components.size());
+    std::uint32_t& component = result.component_of[t];
+    if (component == t) {
+      component = static_cast<std::uint32_t>(result.components.size());
       result.components.emplace_back();
     } else {
-      result.component_of[t] = result.component_of[first];
+      component = result.component_of[component];
     }
-    ++result.components[result.component_of[t]].triangles;
+    ++result.components[component].triangles;
   }
 }
 
-void count_component_vertices(const VertexStars& stars, std::size_t vertices, EdgeTopology& result) {
+/// Only at a vertex that is not manifold can components touch.
+void count_component_vertices(const VertexStars& stars, const std::vector<std::uint32_t>& nonmanifold_vertices,
+                              EdgeTopology& result) {
   std::vector<std::uint32_t> present;
-  for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+  auto next = nonmanifold_vertices.begin();
+  for (std::size_t vertex = 0; vertex < stars.vertex_count(); ++vertex) {
+    const auto star = stars.star(vertex);
     present.clear();
-    for (const std::uint32_t triangle : stars.star(vertex)) present.push_back(result.component_of[triangle]);
-    std::sort(present.begin(), present.end());
-    present.erase(std::unique(present.begin(), present.end()), present.end());
+    if (next != nonmanifold_vertices.end() && *next == vertex) {
+      ++next;
+      for (const std::uint32_t triangle : star) present.push_back(result.component_of[triangle]);
+      std::sort(present.begin(), present.end());
+      present.erase(std::unique(present.begin(), present.end()), present.end());
+    } else if (!star.empty()) {
+      present.push_back(result.component_of[star.front()]);
+    }
     for (const std::uint32_t component : present) ++result.components[component].vertices;
   }
 }
 
 /// Each edge in m triangles takes m of the 3 F sides; so 2 E = 3 F + sum (2 - m), over the irregular ones alone.
-void count_component_edges(const Tally& tally, EdgeTopology& result) {
+void count_component_edges(const std::vector<IrregularEdge>& irregular_edges, EdgeTopology& result) {
   std::vector<std::int64_t> missing_sides(result.components.size());
-  for (const IrregularEdge& edge : tally.irregular_edges) {
+  for (const IrregularEdge& edge : irregular_edges) {
     const std::uint32_t component = result.component_of[edge.triangle];
     missing_sides[component] += 2 - static_cast<std::int64_t>(edge.triangles);
     result.components[component].closed = false;
@@ -241,14 +281,13 @@ void count_component_edges(const Tally& tally, EdgeTopology& result) {
 
 }  // namespace
 
-EdgeTopology find_edge_topology(const TriangleMesh& mesh) {
-  const VertexStars stars(mesh);
-  const Tally tally = count_all(mesh, stars);
-  EdgeTopology result = tally.counts;
-  result.component_of.resize(mesh.triangles.size());
+EdgeTopology find_edge_topology(const TriangleMesh& mesh, const VertexStars& stars) {
+  Tally tally = count_all(mesh, stars);
+  EdgeTopology result = std::move(tally.counts);
   label_components(unite_neighbours(mesh, stars, tally.nonmanifold_vertices), result);
-  count_component_vertices(stars, mesh.vertices.size(), result);
-  count_component_edges(tally, result);
+  count_component_vertices(stars, tally.nonmanifold_vertices, result);
+  count_component_edges(tally.irregular_edges, result);
+  result.nonmanifold = std::move(tally.nonmanifold_vertices);
   return result;
 }
 

@@ -1,7 +1,9 @@
 #include "verify/intersections.h"
 
 #include <algorithm>
+#include <span>
 
+#include "verify/coarse_boxes.h"
 #include "verify/triangle_pair.h"
 
 namespace gaussmesh {
@@ -9,8 +11,8 @@ namespace {
 
 using NumberPair = std::array<std::uint32_t, 2>;
 
-constexpr std::size_t kExamples = 10;       // of intersecting pairs that are kept
-constexpr std::size_t kBlocksInChunk = 64;  // one chunk is one thread's work; each has its own result
+constexpr std::size_t kExamples = 10;        // of intersecting pairs that are kept
+constexpr std::size_t kPatchesInChunk = 16;  // one chunk is one thread's work; each has its own result
 
 void keep_first(std::vector<NumberPair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
@@ -23,70 +25,106 @@ void append(Intersections& found, std::uint32_t a, std::uint32_t b) {
   if (found.examples.size() >= 8 * kExamples) keep_first(found.examples);
 }
 
-bool has_area(const PlacedTriangle& t) { return !are_collinear(t.corners[0], t.corners[1], t.corners[2]); }
-
-/// The triangles of one block, set against each other and against those of later blocks.
-class BlockTester {
+/// The triangles of one patch, set against each other and against those of later patches.
+class PatchTester {
  public:
-  BlockTester(const TriangleMesh& mesh, const TriangleTree& tree) : mesh_(mesh), tree_(tree) {}
+  PatchTester(const TriangleMesh& mesh, const TriangleTree& tree, const FanFacts& facts)
+      : mesh_(mesh), tree_(tree), facts_(facts) {}
 
-  void find_all(std::size_t block, Intersections& found) {
-    count_ = 0;
-    for (const std::uint32_t number : tree_.block(block)) {
-      const Box box = box_of(mesh_, mesh_.triangles[number]);
-      test(number, box, found);
-      place(number, box);
-    }
-    const Box& block_box = tree_.block_box(block);
-    tree_.for_each_block_meeting(block_box, block + 1, [&](std::size_t later) {
-      for (const std::uint32_t number : tree_.block(later)) {
-        const Box box = box_of(mesh_, mesh_.triangles[number]);
-        if (boxes_meet(block_box, box)) test(number, box, found);
-      }
+  /// @param begin, end  the blocks of the patch
+  void find_all(std::size_t begin, std::size_t end, Intersections& found) {
+    Box patch;
+    for (const std::uint32_t number : tree_.blocks(begin, end))
+      patch.include(box_of(mesh_, mesh_.triangles[number]));
+    boxes_.start(patch);
+    triangles_.clear();
+    for (const std::uint32_t number : tree_.blocks(begin, end)) list(number);
+    const std::size_t own = triangles_.size();
+    tree_.for_each_block_meeting(patch, end, [&](std::span<const std::uint32_t> block) {
+      for (const std::uint32_t number : block) list(number);
     });
+    boxes_.finish();
+    is_placed_.assign(triangles_.size(), 0);
+    if (placed_.size() < triangles_.size()) placed_.resize(2 * triangles_.size());
+    for (std::size_t i = 0; i < own; ++i) {
+      const FlatFans fans = flat_fans_of(triangles_[i]);
+      boxes_.for_each_meeting(i, [&](std::size_t j) {
+        if (!are_in_one(fans, triangles_[j]) && meet_beyond_shared(placed(i), placed(j)))
+          append(found, triangles_[i].number(), triangles_[j].number());
+      });
+    }
   }
 
  private:
-  void place(std::uint32_t number, const Box& box) {
-    placed_[count_] = PlacedTriangle(mesh_, mesh_.triangles[number]);
-    if (!has_area(placed_[count_])) return;
-    numbers_[count_] = number;
-    boxes_[count_++] = box;
+  static constexpr std::uint32_t kNone = ~0u;  // no vertex
+
+  typedef std::uint32_t Numbers __attribute__((vector_size(16)));
+
+  /// The numbers of its corners, and last its own.
+  struct Listed {
+    Numbers numbers;
+
+    std::uint32_t number() const { return numbers[3]; }
+  };
+
+  /// For each corner of a triangle its number in all places, or kNone if its fan is not flat.
+  struct FlatFans {
+    Numbers numbers[3];
+  };
+
+  /// Lists a triangle, if it has an area.
+  void list(std::uint32_t number) {
+    if (facts_.turns[number] == 0) return;
+    const auto& [a, b, c] = mesh_.triangles[number];
+    triangles_.push_back(Listed{Numbers{a, b, c, number}});
+    boxes_.append(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]);
   }
 
-  /// Tests a triangle against those that are placed.
-  void test(std::uint32_t number, const Box& box, Intersections& found) const {
-    std::array<std::uint8_t, TriangleTree::kBlock> near{};
-    std::size_t near_count = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      near[near_count] = static_cast<std::uint8_t>(i);
-      near_count += boxes_meet(boxes_[i], box);
+  FlatFans flat_fans_of(const Listed& triangle) const {
+    FlatFans fans;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = triangle.numbers[k];
+      fans.numbers[k] = Numbers{} + (facts_.is_flat[vertex] != 0 ? vertex : kNone);
     }
-    if (near_count == 0) return;
-    const PlacedTriangle triangle(mesh_, mesh_.triangles[number]);
-    for (std::size_t i = 0; i < near_count; ++i)
-      if (meet_beyond_shared(placed_[near[i]], triangle) && has_area(triangle))
-        append(found, numbers_[near[i]], number);
+    return fans;
+  }
+
+  /// Whether a corner has one of the fans. Without branches: most answers are yes, but for any of nine reasons.
+  static bool are_in_one(const FlatFans& fans, const Listed& t) {
+    const auto shared =
+        (t.numbers == fans.numbers[0]) | (t.numbers == fans.numbers[1]) | (t.numbers == fans.numbers[2]);
+    return (shared[0] | shared[1] | shared[2]) != 0;
+  }
+
+  const PlacedTriangle& placed(std::size_t i) {
+    if (is_placed_[i] == 0) placed_[i] = PlacedTriangle(mesh_, mesh_.triangles[triangles_[i].number()]);
+    is_placed_[i] = 1;
+    return placed_[i];
   }
 
   const TriangleMesh& mesh_;
   const TriangleTree& tree_;
-  std::array<PlacedTriangle, TriangleTree::kBlock> placed_;
-  std::array<std::uint32_t, TriangleTree::kBlock> numbers_{};
-  std::array<Box, TriangleTree::kBlock> boxes_;
-  std::size_t count_ = 0;
+  const FanFacts& facts_;
+  std::vector<Listed> triangles_;       // the patch's, then those of later ones that come near it
+  CoarseBoxes boxes_;                   // of triangles_
+  std::vector<PlacedTriangle> placed_;  // of triangles_, as far as they were asked for
+  std::vector<std::uint8_t> is_placed_;
 };
 
 }  // namespace
 
-Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree) {
-  const std::size_t chunks = (tree.block_count() + kBlocksInChunk - 1) / kBlocksInChunk;
-  std::vector<Intersections> found(chunks);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    const std::size_t end = std::min((chunk + 1) * kBlocksInChunk, tree.block_count());
-    BlockTester tester(mesh, tree);
-    for (std::size_t block = chunk * kBlocksInChunk; block < end; ++block) tester.find_all(block, found[chunk]);
+Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree, const FanFacts& facts) {
+  constexpr std::size_t kBlocksInChunk = TriangleTree::kPatchBlocks * kPatchesInChunk;
+  std::vector<Intersections> found((tree.block_count() + kBlocksInChunk - 1) / kBlocksInChunk);
+#pragma omp parallel
+  {
+    PatchTester tester(mesh, tree, facts);
+#pragma omp for schedule(dynamic)
+    for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
+      const std::size_t end = std::min((chunk + 1) * kBlocksInChunk, tree.block_count());
+      for (std::size_t first = chunk * kBlocksInChunk; first < end; first += TriangleTree::kPatchBlocks)
+        tester.find_all(first, std::min(first + TriangleTree::kPatchBlocks, end), found[chunk]);
+    }
   }
   Intersections all;
   for (const Intersections& part : found) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
+#include "verify/flat_fans.h"
 #include "verify/triangle_tree.h"
 
 namespace gaussmesh {
@@ -21,10 +22,11 @@ struct Intersections {
 ///
 /// @param mesh  every triangle has three different vertices, all there, with exact coordinates
 ///              (is_exact_coordinate)
-/// @param tree  of this mesh
+/// @param tree   of this mesh
+/// @param facts  of this mesh: triangles that share a vertex with a flat fan are not set against each other
 ///
 /// The answer does not depend on the number of threads.
 /// Cost: time in proportion to the triangles and to the pairs of triangles whose boxes meet; next to no memory.
-Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree);
+Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree, const FanFacts& facts);
 
 }  // namespace gaussmesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verify/vector3.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -10,6 +12,11 @@ constexpr double kLeftOut = 1e-13;  // share of phi that may be missing
 constexpr double kReach = 0.75;     // widths of a Gaussian that atoms are gathered for round a point
 
 }  // namespace
+
+double curvature_bound(double decay, double mean_square, const Point& mean) {
+  const double trace = std::max(0.0, mean_square - dot(mean, mean));
+  return 2 * decay * std::max(1.0, 2 * decay * trace);
+}
 
 LogField::LogField(const AtomTree& tree, double decay)
     : tree_(tree), decay_(decay), range_(std::log(static_cast<double>(tree.atom_count()) / kLeftOut) / decay) {}
@@ -33,17 +40,20 @@ LogValue LogField::at(const Point& x) {
   }
   double sum = 0.0;
   Point moment{};
+  double square = 0.0;
   for (std::size_t i = 0; i < near_.size(); ++i) {
     if (exponents_[i] < largest - range_) continue;
     const Atom& atom = near_[i];
     const double weight = std::exp(decay_ * (exponents_[i] - largest));
+    const Point arm{x[0] - atom.x, x[1] - atom.y, x[2] - atom.z};
     sum += weight;
-    moment[0] += weight * (x[0] - atom.x);
-    moment[1] += weight * (x[1] - atom.y);
-    moment[2] += weight * (x[2] - atom.z);
+    for (int k = 0; k < 3; ++k) moment[k] += weight * arm[k];
+    square += weight * dot(arm, arm);
   }
-  const double scale = -2 * decay_ / sum;
-  return {decay_ * largest + std::log(sum), {scale * moment[0], scale * moment[1], scale * moment[2]}};
+  const Point mean{moment[0] / sum, moment[1] / sum, moment[2] / sum};
+  return {decay_ * largest + std::log(sum),
+          {-2 * decay_ * mean[0], -2 * decay_ * mean[1], -2 * decay_ * mean[2]},
+          curvature_bound(decay_, square / sum, mean)};
 }
 
 }  // namespace gaussmesh

@@ -12,8 +12,14 @@ namespace gaussmesh {
 /// log phi at a point.
 struct LogValue {
   double value = 0.0;
-  Point gradient{};  ///< of log phi, 1/A
+  Point gradient{};        ///< of log phi, 1/A
+  double curvature = 0.0;  ///< bound of the size of its second derivative there in any direction, 1/A^2
 };
+
+/// A bound of the size of the second derivative of log phi at x in any direction, from the means of |x - x_i|^2 and
+/// of x - x_i with the atoms' shares of phi for weights. The second derivatives are 4 decay^2 C - 2 decay, C the
+/// covariance of the x - x_i; what is largest of it is at most its trace.
+double curvature_bound(double decay, double mean_square, const Point& mean);
 
 /// Evaluates log phi, phi(x) = sum_i exp(-decay (|x - x_i|^2 - r_i^2)), point after point near each other.
 ///

@@ -27,15 +27,24 @@ void sort_by_cell(std::vector<MortonKey>& keys);
 /// Sorts `keys` along the Morton curve of their own box, and those that share a cell by the curve inside it, and
 /// so on: two atoms 10^6 A apart are each sorted as finely as one alone.
 ///
-/// @param point_of  the point of a number; called several times for each
+/// @param point_of  the point of a number; called several times for each, and by several threads
 /// Cost: O(n) for each level; more than one is needed only where many points crowd in one cell.
 template <class PointOf>
 void sort_along_morton_curve(std::vector<MortonKey>& keys, const PointOf& point_of) {
-  constexpr std::size_t kEnough = 32;  // a run this short is near enough together
+  constexpr std::size_t kEnough = 32;         // a run this short is near enough together
+  constexpr std::size_t kForThreads = 10000;  // keys that are worth several threads
   Box box;
-  for (const MortonKey& key : keys) box.include(point_of(key.number));
+#pragma omp parallel if (keys.size() > kForThreads)
+  {
+    Box mine;
+#pragma omp for schedule(static)
+    for (std::size_t i = 0; i < keys.size(); ++i) mine.include(point_of(keys[i].number));
+#pragma omp critical(gaussmesh_morton_order)
+    box.include(mine);
+  }
   if (box.low == box.high) return;
-  for (MortonKey& key : keys) key.cell = morton_cell(box, point_of(key.number));
+#pragma omp parallel for schedule(static) if (keys.size() > kForThreads)
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i].cell = morton_cell(box, point_of(keys[i].number));
   sort_by_cell(keys);
   for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
     while (end < keys.size() && keys[end].cell == keys[begin].cell) ++end;

@@ -114,7 +114,7 @@ TEST_CASE("the sign of a volume that rounding could hide is settled exactly") {
   TriangleMesh flat = tetrahedron();
   for (Point& p : flat.vertices) p = {1e6 + p[0], 1e6 + p[1] / 3, 1 + p[2] * 0x1p-52};
   const auto sign = [](const TriangleMesh& mesh) {
-    return measure_components(mesh, find_edge_topology(mesh), TriangleTree(mesh)).at(0).volume_sign;
+    return measure_components(mesh, find_edge_topology(mesh, VertexStars(mesh)), TriangleTree(mesh)).at(0).volume_sign;
   };
   CHECK(sign(flat) == 1);
   CHECK(sign(turned(flat)) == -1);

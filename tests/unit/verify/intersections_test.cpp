@@ -108,7 +108,10 @@ bool meet(const TriangleMesh& mesh, std::size_t a, std::size_t b) {
   return meet_beyond_shared(PlacedTriangle(mesh, mesh.triangles[a]), PlacedTriangle(mesh, mesh.triangles[b]));
 }
 
-Intersections find(const TriangleMesh& mesh) { return find_intersections(mesh, TriangleTree(mesh)); }
+Intersections find(const TriangleMesh& mesh) {
+  const VertexStars stars(mesh);
+  return find_intersections(mesh, TriangleTree(mesh), find_flat_fans(mesh, stars, find_edge_topology(mesh, stars)));
+}
 
 bool has_flat_triangle(const TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {

@@ -55,6 +55,40 @@ TEST_CASE("one atom is a sphere") {
   }
 }
 
+TEST_CASE("small distances are measured as well as large ones") {
+  const double decay = 0.6, isovalue = 1.7;
+  const double exact = sphere_radius(1.8, decay, isovalue);
+  for (const double offset : {1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    CAPTURE(offset);
+    for (const double side : {-1.0, 1.0}) {
+      const TriangleMesh mesh = icosphere(3, exact + side * offset);
+      const VertexDistance found = vertex_distance_to_surface(mesh, {{0, 0, 0, 1.8, 0}}, decay, isovalue);
+      CHECK(found.max == Approx(offset).margin(2e-9));
+      CHECK(found.mean == Approx(offset).margin(2e-9));
+      CHECK(found.max == distance_to_surface(mesh, {{0, 0, 0, 1.8, 0}}, decay, isovalue).max_vertex_distance);
+    }
+  }
+}
+
+TEST_CASE("next to a saddle point the slope is not taken for the distance") {
+  // Two atoms at the isovalue at which their surfaces touch in the origin: phi = 2 exp(-1.25 d) there.
+  const double decay = 0.6;
+  const std::vector<Atom> atoms{{-1.5, 0, 0, 1, 0}, {1.5, 0, 0, 1, 0}};
+  const double isovalue = 2 * std::exp(-1.25 * decay) * (1 + 1e-9);
+  // On the axis, beside the saddle: the way to the surface is along the axis, and Newton's method finds it.
+  for (const double x : {1e-4, 1e-3, 1e-2}) {
+    const auto log_phi = [&](double at) {
+      return std::log(std::exp(-decay * ((at + 1.5) * (at + 1.5) - 1)) +
+                      std::exp(-decay * ((at - 1.5) * (at - 1.5) - 1)));
+    };
+    double low = 0.0, high = 0.5;  // phi rises from the saddle to an atom
+    for (int i = 0; i < 60; ++i) (log_phi((low + high) / 2) < std::log(isovalue) ? low : high) = (low + high) / 2;
+    CAPTURE(x);
+    const double found = vertex_distance_to_surface({{{x, 0, 0}}, {}}, atoms, decay, isovalue).max;
+    CHECK(found == Approx(std::abs(x - low)).margin(2e-8));
+  }
+}
+
 TEST_CASE("centroids of flat triangles are inside a sphere") {
   const TriangleMesh mesh = icosphere(0, 2.0);  // a regular icosahedron: all centroids as deep
   const SurfaceDistance found = distance_to_surface(mesh, {{0, 0, 0, 2.0, 0}}, 1.0, 1.0);
