@@ -1,52 +1,136 @@
 // The program: options, exit codes, and what is said on the terminal.
 
+#include <algorithm>
+#include <csignal>
 #include <iostream>
 
 #include "check_command.h"
 #include "convert_command.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/version.h"
+#include "manual.h"
 #include "mesh_command.h"
+#include "names.h"
 
 namespace {
 
+using namespace gaussmesh::app;
+
 /// Exit codes, by who can mend the error.
 enum ExitCode { kGood = 0, kInternal = 1, kWrongUse = 2, kInput = 3, kCannotMesh = 4 };
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  gaussmesh in.pqr --d 0.6 --c 1.7 -o out.off      a surface of the volume of the solvent-excluded one\n"
+    "  gaussmesh in.pqr --preset sas -o out.vert        solvent-accessible, as out.vert and out.face of MSMS\n"
+    "  gaussmesh in.pqr -o out.off -o out.vtp           one surface in two formats\n"
+    "  gaussmesh in.pqr --cavities drop -o out.smesh    without cavities, for TetGen\n"
+    "  zcat in.pqr.gz | gaussmesh - -o - | less         from standard input to standard output\n"
+    "  gaussmesh check out.off in.pqr --d 0.6 --c 1.7   judge a mesh\n\n"
+    "Exit codes: 0 good, 1 internal error, 2 wrong use, 3 bad input, 4 cannot mesh, 5 check failed";
 
 int fail(const std::exception& error, ExitCode code) {
   std::cerr << "gaussmesh: " << error.what() << "\n";
   return code;
 }
 
+/// Leaves no temporary file behind, and ends the program as the signal would have.
+void clean_up_and_die(int signal) {
+  gaussmesh::remove_unfinished_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU}) {
+    // What the caller has told us to ignore, as nohup does, stays ignored.
+    if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is then an error of write()
+}
+
+/// What a word that fits nowhere may stand for: an option where it begins with a dash, else a sub-command.
+std::string nearest_to(const CLI::App& program, const std::string& word) {
+  std::vector<std::string> names;
+  if (word[0] != '-') {
+    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    return gaussmesh::nearest_name(word, names);
+  }
+  const CLI::App* app = program.get_subcommands().empty() ? &program : program.get_subcommands().front();
+  for (const CLI::Option* option : app->get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return gaussmesh::nearest_name(word.substr(0, word.find('=')), names);
+}
+
+/// Says what is wrong with the command line, and what may have been meant.
+int fail_to_parse(const CLI::App& program, const CLI::ParseError& error, const std::string& first_word) {
+  std::cerr << "gaussmesh: " << error.what();
+  const std::vector<std::string> extras = program.remaining(true);
+  const auto option = std::find_if(extras.begin(), extras.end(),
+                                   [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+  if (option != extras.end()) {
+    std::cerr << "; did you mean '" << nearest_to(program, *option) << "'?";
+  } else if (!extras.empty() && !first_word.empty() && program.get_subcommands().empty()) {
+    std::cerr << "; one molecule is meshed at a time. Did you mean '" << nearest_to(program, first_word) << "' by '"
+              << first_word << "'?";
+  }
+  std::cerr << "\nRun with --help for more information.\n";
+  return dynamic_cast<const CLI::FileError*>(&error) != nullptr ? kInput : kWrongUse;
+}
+
+/// Prints the page or script; the names are those of --print-manual.
+int print_manual(const CLI::App& program, const std::string& kind) {
+  std::cout << (kind == "man"    ? manual_page(program)
+                : kind == "bash" ? bash_completion(program)
+                                 : zsh_completion(program));
+  return kGood;
+}
+
 int run(int argc, char** argv) {
   CLI::App program(
       "gaussmesh: certified triangular meshes of molecular Gaussian surfaces\n"
-      "  { x : sum_i exp(-d (|x - x_i|^2 - r_i^2)) = c }");
-  program.set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion);
-  program.footer(
-      "Example:  gaussmesh in.pqr --d 0.6 --c 1.7 -o out.off\n\n"
-      "Exit codes: 0 good, 1 internal error, 2 wrong use, 3 bad input, 4 cannot mesh, 5 check failed");
-  gaussmesh::app::MeshCommand mesh;
-  gaussmesh::app::add_mesh_options(program, mesh);
-  gaussmesh::app::CheckOptions check;
-  CLI::App* check_command = gaussmesh::app::add_check_command(program, check);
-  gaussmesh::app::ConvertOptions convert;
-  CLI::App* convert_command = gaussmesh::app::add_convert_command(program, convert);
+      "  { x : sum_i exp(-d (|x - x_i|^2 - r_i^2)) = c }",
+      "gaussmesh");
+  program.footer(kFooter);
+  std::string manual;
+  program.add_option("--print-manual", manual, "man, bash or zsh")
+      ->check(one_of({"man", "bash", "zsh"}))
+      ->group("");
+  MeshCommand mesh;
+  add_mesh_options(program, mesh);
+  program.set_help_flag("-h,--help", "print this and exit")->group("Running");
+  program
+      .set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion, "print the version and exit")
+      ->group("Running");
+  program.set_config("--config", "", "read options from a TOML file; those on the command line come first")
+      ->type_name("FILE")
+      ->group("Running");
+  program.allow_config_extras(CLI::config_extras_mode::error);
+  CheckOptions check;
+  CLI::App* check_command = add_check_command(program, check);
+  ConvertOptions convert;
+  CLI::App* convert_command = add_convert_command(program, convert);
   program.require_subcommand(0, 1);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // help and version
+    return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    const int code = program.exit(error);
-    return code == 0 ? kGood : kWrongUse;
+    return fail_to_parse(program, error, argc > 1 ? argv[1] : "");
   }
-  if (check_command->parsed()) return gaussmesh::app::run_check(check);
-  if (convert_command->parsed()) return gaussmesh::app::run_convert(convert);
-  return gaussmesh::app::run_mesh(mesh);
+  if (!manual.empty()) return print_manual(program, manual);
+  if (check_command->parsed()) return run_check(check);
+  if (convert_command->parsed()) return run_convert(convert);
+  return run_mesh(mesh);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  handle_signals();
   try {
     return run(argc, argv);
   } catch (const gaussmesh::OptionError& error) {

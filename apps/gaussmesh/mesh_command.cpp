@@ -1,54 +1,247 @@
 #include "mesh_command.h"
 
+#include <array>
+#include <filesystem>
 #include <iostream>
+#include <limits>
 
 #include "gaussmesh/error.h"
-#include "gaussmesh/read_atoms.h"
+#include "gaussmesh/select_components.h"
+#include "names.h"
 #include "output_options.h"
+#include "progress.h"
 
 namespace gaussmesh::app {
+namespace {
+
+/// Parameters by the surface that they match: [LCL15] for the first three.
+struct Preset {
+  const char* name;
+  double decay;
+  double isovalue;
+  double probe;
+};
+
+constexpr std::array<Preset, 5> kPresets = {{{"ses-volume", 0.6, 1.7, 0.0},
+                                             {"ses-area", 0.4, 1.8, 0.0},
+                                             {"ses-hausdorff", 0.4, 1.2, 0.0},
+                                             {"vdw", 2.0, 1.0, 0.0},
+                                             {"sas", 2.0, 1.0, 1.4}}};
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const Preset& preset : kPresets) names.push_back(preset.name);
+  return names;
+}
+
+/// The command with what its preset means filled in.
+MeshCommand with_preset(MeshCommand command) {
+  for (const Preset& preset : kPresets) {
+    if (command.preset != preset.name) continue;
+    command.options.decay = preset.decay;
+    command.options.isovalue = preset.isovalue;
+    if (!command.probe) command.probe = preset.probe;
+  }
+  return command;
+}
+
+bool is_standard_output_taken(const MeshCommand& command) {
+  return command.report == "-" ||
+         std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end();
+}
+
+void require_sense(const MeshCommand& command) {
+  if (command.molecule.empty()) throw OptionError("MOL: expected a file of atoms, got nothing; see --help");
+  if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
+  if (command.probe && !(*command.probe >= 0.0 && *command.probe <= 1000.0))
+    throw OptionError("probe: expected a number from 0 to 1000 (A), got '" + std::to_string(*command.probe) + "'");
+  if (!(command.min_cavity_volume >= 0.0))
+    throw OptionError("min-cavity-volume: expected a number >= 0 (A^3), got '" +
+                      std::to_string(command.min_cavity_volume) + "'");
+  const bool is_separate = command.cavities == "separate";
+  if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
+    throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
+}
+
+AtomFile read_molecule(const MeshCommand& command) {
+  AtomFile input = command.molecule == "-" ? read_atoms(std::cin, "standard input") : read_atoms(command.molecule);
+  if (!command.quiet)
+    for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
+  if (command.probe) input.atoms = add_probe(std::move(input.atoms), *command.probe);
+  return input;
+}
+
+/// What is written.
+struct Product {
+  MeshFile surface;
+  MeshReport report;
+};
+
+/// The surface with its cavities as the command wants them, and what was done told in the report.
+Product select_cavities(const MeshCommand& command, Product product) {
+  const double least =
+      command.cavities == "drop" ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
+  const MeshCheck check = product.report.check;
+  const ComponentList kept = leave_out_cavities(check, least);
+  if (kept.size() == check.components.size()) return product;
+  product.surface = extract_components(product.surface.mesh, product.surface.data, check, kept);
+  product.report.check = check_mesh(product.surface.mesh);
+  product.report.left_out = {check.components.size() - kept.size(), product.report.check.volume - check.volume};
+  return product;
+}
+
+/// What the formats of the outputs hold.
+VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result) {
+  const WriteOptions writing = writing_options(command.writing, command.no_header);
+  VertexData data;
+  data.normals = result.normals;
+  for (const std::string& output : command.outputs) {
+    if (!format_of(output, writing).holds_vertex_data) continue;
+    data.atoms = find_nearest_atoms(result.mesh, atoms, command.options.threads);
+    data.components = find_vertex_components(result.mesh, result.report.check);
+    break;
+  }
+  return data;
+}
+
+/// The name of the file for one of several surfaces: from out.off to out_1.off.
+std::string numbered(const std::string& output, std::size_t number) {
+  const std::filesystem::path path = output;
+  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
+      .string();
+}
+
+/// Writes all meshes and the report, all of them or none; returns the name of the first.
+std::string write_all(const MeshCommand& command, const Product& product) {
+  const auto& [surface, report] = product;
+  const WriteOptions writing = writing_options(command.writing, command.no_header);
+  OutputFiles files;
+  std::string first = command.outputs.front();
+  if (command.cavities == "separate") {
+    first = numbered(first, 1);
+    std::size_t number = 0;
+    for (const std::uint32_t component : outsides_first(report.check)) {
+      const MeshFile part = extract_components(surface.mesh, surface.data, report.check, {component});
+      ++number;
+      for (const std::string& output : command.outputs)
+        files.add_mesh(part.mesh, part.data, numbered(output, number), writing);
+    }
+  } else {
+    for (const std::string& output : command.outputs) files.add_mesh(surface.mesh, surface.data, output, writing);
+  }
+  if (!command.report.empty()) files.add_text(report_json(report), command.report);
+  files.commit();
+  return first;
+}
+
+void print_details(const MeshReport& report, std::ostream& out) {
+  out << "cells " << report.cells << ", cut along folds " << report.cells_cut_by_folds << ", split "
+      << report.cells_split << "; smallest box " << report.smallest_box << " A; largest distance of a vertex "
+      << report.vertex_distance_max << " A\n"
+      << "angles " << report.check.min_angle_deg << " to " << report.check.max_angle_deg
+      << " deg, smallest one of a triangle " << report.check.mean_min_angle_deg << " deg on average\n";
+  for (const StageCost& stage : report.stages)
+    out << "  " << stage.name << ": " << stage.time_s << " s, " << stage.peak_memory_MB << " MB\n";
+}
+
+}  // namespace
 
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
-  program.add_option("molecule", command.molecule, "PQR or XYZR file, plain or gzipped")->type_name("MOL");
+  program.add_option("molecule", command.molecule, "PQR or XYZR file, plain or gzipped; -: standard input, PQR")
+      ->type_name("MOL");
+
+  const std::string surface = "Surface";
+  CLI::Option* preset = program
+                            .add_option("--preset", command.preset,
+                                        "decay, isovalue and probe by name: " + join_names(preset_names(), ", ") +
+                                            " (default: ses-volume)")
+                            ->type_name("NAME")
+                            ->check(one_of(preset_names()))
+                            ->group(surface);
+  program
+      .add_option("--d,--decay", command.options.decay,
+                  "decay d of the Gaussians (1/A^2, 0.001 to 1000; default 0.6)")
+      ->type_name("D")
+      ->excludes(preset)
+      ->group(surface);
+  program
+      .add_option("--c,--isovalue", command.options.isovalue,
+                  "isovalue c of the surface (1e-9 to 1e9; default 1.7)")
+      ->type_name("C")
+      ->excludes(preset)
+      ->group(surface);
+  program
+      .add_option("--probe", command.probe,
+                  "added to every radius, say for a Stern layer (A, 0 to 1000; default 0)")
+      ->type_name("R")
+      ->group(surface);
+  program
+      .add_option("--cavities", command.cavities,
+                  "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
+                  "first (default: keep)")
+      ->type_name("NAME")
+      ->check(one_of({"keep", "drop", "separate"}))
+      ->group(surface);
+  program
+      .add_option("--min-cavity-volume", command.min_cavity_volume,
+                  "fill cavities of less than this (A^3, >= 0; one water is 11.4; default 0)")
+      ->type_name("V")
+      ->group(surface);
+  program
+      .add_flag("--allow-uncertified", command.options.allow_uncertified,
+                "where c is too near a critical value for a proof, mesh a level beside it")
+      ->group(surface);
+
+  const std::string triangles = "Triangles";
+  program.add_option("--spacing", command.options.spacing, "size of the triangles (A, 0.01 to 1000; default 0.5)")
+      ->type_name("H")
+      ->group(triangles);
+  program.add_flag("--improve", command.options.improve, "make the triangles nearly equilateral (experimental)")
+      ->group(triangles);
+
+  const std::string output = "Output";
   program
       .add_option("-o,--output", command.outputs, "mesh to write; may be given several times; -: standard output")
       ->type_name("FILE")
-      ->take_all();
-  add_format_options(program, command.writing, command.no_header);
-  program.add_option("--d,--decay", command.options.decay, "decay d of the Gaussians (1/A^2, 0.001 to 1000)")
-      ->type_name("D")
-      ->capture_default_str();
-  program.add_option("--c,--isovalue", command.options.isovalue, "isovalue c of the surface (1e-9 to 1e9)")
-      ->type_name("C")
-      ->capture_default_str();
-  program.add_option("--spacing", command.options.spacing, "size of the triangles (A, 0.01 to 1000)")
-      ->type_name("H")
-      ->capture_default_str();
-  program.add_flag("--improve", command.options.improve, "make the triangles nearly equilateral (experimental)");
-  program.add_option("--threads", command.options.threads, "threads (0: one for each processor)")
+      ->take_all()
+      ->group(output);
+  for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(output);
+  program
+      .add_option("--report", command.report,
+                  "write everything that is known of the mesh, JSON; -: standard output")
+      ->type_name("FILE")
+      ->group(output);
+
+  const std::string running = "Running";
+  program
+      .add_option("--threads", command.options.threads,
+                  "threads (0 to 4096; 0, the default: one for each processor)")
       ->type_name("N")
-      ->capture_default_str();
-  program.add_option("--report", command.report, "write everything that is known of the mesh, JSON")
-      ->type_name("FILE");
-  program.add_flag("--allow-uncertified", command.options.allow_uncertified,
-                   "where c is too near a critical value for a proof, mesh a level beside it");
+      ->group(running);
+  CLI::Option* quiet = program.add_flag("--quiet", command.quiet, "say nothing but errors")->group(running);
+  program.add_flag("--verbose", command.verbose, "say also how each stage went")->excludes(quiet)->group(running);
 }
 
-int run_mesh(const MeshCommand& command) {
-  if (command.molecule.empty()) throw OptionError("MOL: expected a PQR or XYZR file, got nothing; see --help");
-  if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
-  const WriteOptions writing = writing_options(command.writing, command.no_header);
-  require_writable_outputs(command.outputs, command.report, writing);
-  const AtomFile input = read_atoms(command.molecule);
-  for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
-  const MeshResult result = mesh_surface(input.atoms, command.options);
-  const VertexData data = {result.normals, find_nearest_atoms(result.mesh, input.atoms, command.options.threads),
-                           find_vertex_components(result.mesh, result.report.check)};
-  OutputFiles files;
-  for (const std::string& output : command.outputs) files.add_mesh(result.mesh, data, output, writing);
-  if (!command.report.empty()) files.add_text(report_json(result.report), command.report);
-  files.commit();
-  std::cout << command.outputs.front() << ": " << report_summary(result.report);
+int run_mesh(const MeshCommand& given) {
+  const MeshCommand command = with_preset(given);
+  require_sense(command);
+  require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
+  const AtomFile input = read_molecule(command);
+  MeshOptions options = command.options;
+  MeshResult result = [&] {
+    ProgressBar bar(!command.quiet);
+    options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
+    return mesh_surface(input.atoms, options);
+  }();
+  result.report.probe_radius = command.probe.value_or(0.0);
+  VertexData data = find_vertex_data(command, input.atoms, result);
+  const Product product =
+      select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
+  const std::string first = write_all(command, product);
+  if (command.quiet) return 0;
+  std::ostream& out = is_standard_output_taken(command) ? std::cerr : std::cout;
+  out << first << ": " << report_summary(product.report);
+  if (command.verbose) print_details(product.report, out);
   return 0;
 }
 

@@ -26,7 +26,8 @@ void require_writable_outputs(const std::vector<std::string>& outputs, const std
   std::set<std::filesystem::path> seen;
   const auto require_new = [&](const std::filesystem::path& file) {
     std::error_code error;
-    const std::filesystem::path place = file == "-" ? file : std::filesystem::weakly_canonical(file, error);
+    const std::filesystem::path place =
+        file == "-" ? file : std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
     const bool is_device = std::filesystem::is_character_file(place, error);
     if (!seen.insert(place).second && !is_device) {
       throw OptionError("-o: expected each output once, got '" + file.string() + "' again");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct MeshOptions {
   bool improve = false;             ///< make the triangles nearly equilateral; not yet for production, see README
   int threads = 0;                  ///< 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
+  std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
 };
 
 /// A place where phi = c is (nearly) singular.
@@ -43,6 +45,12 @@ struct StageCost {
   double peak_memory_MB = 0.0;      ///< of the whole process, up to the end of the stage
 };
 
+/// Cavities that are not in the mesh because the caller took them out of it.
+struct CavitiesLeftOut {
+  std::size_t components = 0;       ///< the cavities, and what lies in them
+  double volume = 0.0;              ///< A^3, that the mesh encloses more than the surface does
+};
+
 /// How the mesh came about, and what was proven of it.
 struct MeshReport {
   std::size_t atoms = 0;
@@ -58,6 +66,8 @@ struct MeshReport {
   double vertex_distance_max = 0.0; ///< A, largest distance of a vertex from phi = c
   MeshCheck check;                  ///< what the judge found of the triangles
   std::vector<StageCost> stages;
+  double probe_radius = 0.0;        ///< A, what the caller had added to all radii beforehand
+  CavitiesLeftOut left_out;         ///< what the caller did to the mesh afterwards; `check` is then of what remains
 };
 
 struct MeshResult {

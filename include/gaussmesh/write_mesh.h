@@ -18,7 +18,8 @@ namespace gaussmesh {
 struct MeshFormat {
   std::string_view name;                     ///< what WriteOptions::format calls it
   std::vector<std::string_view> extensions;  ///< names of files that mean this format, with their dot
-  std::string_view description;              ///< one line: what it holds
+  std::string_view description;              ///< one line: what it holds, and who reads it
+  bool holds_vertex_data = false;            ///< more of it than normals
 };
 
 /// All of them. Coordinates have nine decimals in text and 64 bits in binary formats, so that a reader gets back
@@ -78,6 +79,9 @@ void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::fil
 
 /// Writes one text by OutputFiles.
 void write_text(std::string_view text, const std::filesystem::path& path);
+
+/// The format that a mesh of this name is written in. @throws OptionError as OutputFiles::add_mesh() does
+const MeshFormat& format_of(const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// The files that a mesh of this name is written to: one, or two of MSMS.
 /// @throws OptionError as OutputFiles::add_mesh() does

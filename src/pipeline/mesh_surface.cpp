@@ -24,9 +24,11 @@ constexpr double kVertexTolerance = 1e-6;
 /// Measures the stages one after the other.
 class Stopwatch {
  public:
-  explicit Stopwatch(std::vector<StageCost>& stages) : stages_(stages) {}
+  Stopwatch(std::vector<StageCost>& stages, std::function<void(const std::string&)> on_stage_end)
+      : stages_(stages), on_stage_end_(std::move(on_stage_end)) {}
 
   void finished(const std::string& name) {
+    if (on_stage_end_) on_stage_end_(name);
     const auto now = Clock::now();
     const double time_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
@@ -45,6 +47,7 @@ class Stopwatch {
  private:
   using Clock = std::chrono::steady_clock;
   std::vector<StageCost>& stages_;
+  std::function<void(const std::string&)> on_stage_end_;
   Clock::time_point last_ = Clock::now();
 };
 
@@ -153,7 +156,7 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
   report.atoms = atoms.size();
   report.options = options;
   report.isovalue_used = options.isovalue;
-  Stopwatch watch(report.stages);
+  Stopwatch watch(report.stages, options.on_stage_end);
 
   const GaussianField field(atoms, options.decay, options.isovalue);
   watch.finished("field");

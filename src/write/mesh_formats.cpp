@@ -10,25 +10,28 @@ namespace gaussmesh {
 namespace {
 
 constexpr std::array<FormatEntry, 10> kFormats = {{
-    {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", {{{"", write_off}}}},
+    {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", false, {{{"", write_off}}}},
     {"msms",
      {".vert", ".face"},
      "two files, with normals and nearest atoms (TABI-PB, PyGBe, pbj, VMD)",
+     true,
      {{{".vert", write_msms_vertices}, {".face", write_msms_faces}}}},
     {"ply",
      {".ply"},
-     "binary, with normals, nearest atoms, components (MeshLab, PyMOL)",
+     "binary, with normals, nearest atoms, components (MeshLab)",
+     true,
      {{{"", write_ply_binary}}}},
-    {"ply-ascii", {}, "the same as text", {{{"", write_ply_ascii}}}},
-    {"obj", {".obj"}, "with normals (ChimeraX, Blender)", {{{"", write_obj}}}},
-    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", {{{"", write_stl}}}},
-    {"gmsh22",
-     {".msh"},
-     "Gmsh 2.2, a tag for each component, vertex data as views (bempp)",
-     {{{"", write_gmsh_22}}}},
-    {"gmsh41", {}, "the same as Gmsh 4.1", {{{"", write_gmsh_41}}}},
-    {"smesh", {".smesh"}, "TetGen, with a hole in each cavity and a region in each solid", {{{"", write_smesh}}}},
-    {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", {{{"", write_vtp}}}},
+    {"ply-ascii", {}, "the same as text", true, {{{"", write_ply_ascii}}}},
+    {"obj", {".obj"}, "with normals (ChimeraX, Blender)", false, {{{"", write_obj}}}},
+    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", false, {{{"", write_stl}}}},
+    {"gmsh22", {".msh"}, "Gmsh 2.2, a tag for each component, vertex data (bempp)", true, {{{"", write_gmsh_22}}}},
+    {"gmsh41", {}, "the same as Gmsh 4.1", true, {{{"", write_gmsh_41}}}},
+    {"smesh",
+     {".smesh"},
+     "TetGen, with a hole in each cavity, a region in each solid",
+     false,
+     {{{"", write_smesh}}}},
+    {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", true, {{{"", write_vtp}}}},
 }};
 
 std::string lower_case(std::string text) {
@@ -66,7 +69,7 @@ const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> formats = [] {
     std::vector<MeshFormat> list;
     for (const FormatEntry& entry : kFormats) {
-      list.push_back({entry.name, {}, entry.description});
+      list.push_back({entry.name, {}, entry.description, entry.holds_vertex_data});
       for (const std::string_view extension : entry.extensions)
         if (!extension.empty()) list.back().extensions.push_back(extension);
     }
@@ -85,6 +88,11 @@ const FormatEntry& find_format(const std::filesystem::path& path, const WriteOpt
     throw OptionError("format '" + options.format + "': expected a file name, got '-'; it makes two files");
   }
   return entry;
+}
+
+const MeshFormat& format_of(const std::filesystem::path& path, const WriteOptions& options) {
+  const auto place = &find_format(path, options) - kFormats.data();
+  return mesh_formats()[static_cast<std::size_t>(place)];
 }
 
 std::filesystem::path part_path(const std::filesystem::path& path, const FormatPart& part) {

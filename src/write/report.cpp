@@ -14,6 +14,7 @@ Json options_json(const MeshReport& report) {
   return {{"decay_per_A2", o.decay},
           {"isovalue", o.isovalue},
           {"isovalue_used", report.isovalue_used},
+          {"probe_radius_A", report.probe_radius},
           {"spacing_A", o.spacing},
           {"improve", o.improve},
           {"threads", o.threads},
@@ -92,6 +93,7 @@ std::string report_json(const MeshReport& report) {
                {"certified", report.certified},
                {"proof", proof_json(report)},
                {"components", components_json(check)},
+               {"left_out", {{"components", report.left_out.components}, {"volume_A3", report.left_out.volume}}},
                {"quality", quality_json(check)},
                {"vertex_distance_max_A", report.vertex_distance_max},
                {"stages", stages}};
@@ -115,12 +117,16 @@ std::string report_summary(const MeshReport& report) {
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
                                counted(cavities, "cavity", "cavities") + ", " +
                                counted(handles, "handle", "handles");
+  const std::string but = report.left_out.components == 0
+                              ? ""
+                              : " but for " + counted(report.left_out.components, "component", "components") +
+                                    " of " + number_text(report.left_out.volume) + " A^3 left out on request";
   if (report.certified) {
-    text +=
-        "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface: " + topology;
+    text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface" + but +
+            ": " + topology;
   } else {
     text += "NOT certified: c is too near a critical value; meshed c = " + number_text(report.isovalue_used, 15) +
-            " instead: " + topology;
+            " instead" + but + ": " + topology;
   }
   return text + "\n";
 }

@@ -8,10 +8,15 @@ Standard library only. `--update-golden` writes the help texts anew instead of c
 
 import gzip
 import json
+import math
+import os
 import pathlib
 import random
 import re
+import signal
+import subprocess
 import sys
+import time
 
 from support import BAD_INPUT, CANNOT_MESH, CHECK_FAILED, WRONG_USE, CliTest, run_tests, settings
 
@@ -225,6 +230,208 @@ class Report(CliTest):
         for stage in stages:
             self.assertGreaterEqual(stage["time_s"], 0.0, stage)
             self.assertGreater(stage["peak_memory_MB"], 0.0, stage)
+
+
+class Surfaces(CliTest):
+    """Presets, probe and cavities."""
+
+    def report(self, *arguments):
+        self.expect(0, *arguments, "-o", self.mesh, "--report", self.folder / "r.json")
+        return json.loads((self.folder / "r.json").read_text())
+
+    def test_presets_are_their_parameters(self):
+        pairs = {"ses-volume": (0.6, 1.7), "ses-area": (0.4, 1.8), "ses-hausdorff": (0.4, 1.2), "vdw": (2.0, 1.0)}
+        for name, (decay, isovalue) in pairs.items():
+            with self.subTest(name):
+                options = self.report(self.molecule("methanol"), "--preset", name)["options"]
+                self.assertEqual((options["decay_per_A2"], options["isovalue"]), (decay, isovalue))
+                by_name = self.mesh.read_bytes()
+                self.expect(0, self.molecule("methanol"), "--d", decay, "--c", isovalue, "-o", self.mesh)
+                self.assertEqual(self.mesh.read_bytes(), by_name)
+
+    def test_probe_is_added_to_every_radius(self):
+        atom = "ATOM 1 C X 1 0.0 0.0 0.0 0.0 {}\n"
+        self.write("large.pqr", atom.format(3.4))
+        self.write("small.pqr", atom.format(2.0))
+        said = self.report("small.pqr", "--preset", "sas")
+        self.assertEqual(said["options"]["probe_radius_A"], 1.4)
+        grown = self.mesh.read_bytes()
+        self.expect(0, "large.pqr", "--d", 2.0, "--c", 1.0, "-o", self.mesh)
+        self.assertEqual(self.mesh.read_bytes(), grown)
+        self.expect(0, "small.pqr", "--d", 2.0, "--c", 1.0, "--probe", 1.4, "-o", self.mesh)
+        self.assertEqual(self.mesh.read_bytes(), grown)
+
+    def test_a_preset_and_a_parameter_are_too_much(self):
+        self.expect(WRONG_USE, self.molecule("methanol"), "--preset", "vdw", "--d", 1.0, "-o", self.mesh)
+        self.assertEqual(self.files(), [])
+
+    def shell(self):
+        """A ball in a shell: two outsides, one cavity."""
+        atoms, count = ["ATOM 1 C X 1 0.0 0.0 0.0 0.0 1.5"], 300
+        for i in range(count):
+            z = 1 - 2 * (i + 0.5) / count
+            x, y = (7 * (1 - z * z) ** 0.5 * f(2.399963 * i) for f in (math.cos, math.sin))
+            atoms.append(f"ATOM {i + 2} C X 1 {x:.6f} {y:.6f} {7 * z:.6f} 0.0 1.5")
+        return self.write("shell.pqr", "\n".join([*atoms, ""]))
+
+    def kinds(self, said):
+        return [component["kind"] for component in said["components"]]
+
+    def test_cavities(self):
+        shell = self.shell()
+        kept = self.report(shell)
+        self.assertEqual(self.kinds(kept), ["outside", "cavity", "outside"])
+        self.assertEqual(kept["left_out"]["components"], 0)
+        self.expect(0, "check", self.mesh)
+        cavity, ball = -kept["components"][1]["volume_A3"], kept["components"][2]["volume_A3"]
+        for options in [["--cavities", "drop"], ["--min-cavity-volume", cavity + 1]]:
+            with self.subTest(options):
+                dropped = self.report(shell, *options)
+                self.assertEqual(self.kinds(dropped), ["outside"])
+                self.assertEqual(dropped["left_out"]["components"], 2, "the ball goes with the hole that it is in")
+                self.assertAlmostEqual(dropped["left_out"]["volume_A3"], cavity - ball, places=6)
+                self.assertAlmostEqual(dropped["volume_A3"], kept["components"][0]["volume_A3"], places=6)
+                self.expect(0, "check", self.mesh)
+        self.assertEqual(self.kinds(self.report(shell, "--min-cavity-volume", cavity - 1)), self.kinds(kept))
+
+    def test_separate_surfaces(self):
+        kept = self.report(self.shell())
+        self.mesh.unlink()
+        self.expect(0, "shell.pqr", "--cavities", "separate", "-o", self.mesh, "-o", "s.ply")
+        self.assertEqual(self.files(), [*(f"out_{i}.off" for i in (1, 2, 3)), "r.json",
+                                        *(f"s_{i}.ply" for i in (1, 2, 3)), "shell.pqr"])
+        volumes = []
+        for i in (1, 2, 3):
+            self.run_program("check", f"out_{i}.off", "--json", "c.json")
+            volumes.append(json.loads((self.folder / "c.json").read_text())["volume_A3"])
+        wanted = [kept["components"][i]["volume_A3"] for i in (0, 2, 1)]  # outsides first
+        for got, volume in zip(volumes, wanted):
+            self.assertAlmostEqual(got, volume, places=6)
+
+
+class Running(CliTest):
+    """Streams, what is said, configuration, and being stopped."""
+
+    def test_standard_input_and_output(self):
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        piped = self.expect(0, "-", "-o", "-", stdin=self.molecule("methanol").read_text())
+        self.assertEqual(piped.stdout, self.mesh.read_text(), "nothing else on standard output")
+        self.assertIn("certified", piped.stderr)
+        report = self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--report", "-")
+        self.assertEqual(json.loads(report.stdout)["atoms"], 3)
+
+    def test_quiet_and_verbose(self):
+        quiet = self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--quiet")
+        self.assertEqual(quiet.stdout + quiet.stderr, "")
+        self.assertIn("boxes", self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--verbose").stdout)
+        wrong = self.expect(BAD_INPUT, "none.pqr", "-o", self.mesh, "--quiet")
+        self.assertNotEqual(wrong.stderr, "")
+
+    def test_configuration_file(self):
+        self.write("run.toml", 'decay = 0.4\nisovalue = 1.8\noutput = ["a.off", "a.ply"]\nquiet = true\n')
+        self.expect(0, self.molecule("methanol"), "--config", "run.toml")
+        self.expect(0, self.molecule("methanol"), "--preset", "ses-area", "-o", self.mesh)
+        self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
+        self.assertIn("a.ply", self.files())
+        self.write("wrong.toml", "decya = 0.4\n")
+        self.assertIn("decya", self.expect(WRONG_USE, self.molecule("methanol"), "--config", "wrong.toml").stderr)
+        self.expect(BAD_INPUT, self.molecule("methanol"), "--config", "none.toml")
+
+    def test_the_nearest_name_is_told(self):
+        for word, meant in [("--tread", "--threads"), ("--isovalu", "--isovalue"), ("--spacin=3", "--spacing")]:
+            self.assertIn(f"'{meant}'", self.expect(WRONG_USE, self.molecule("methanol"), word).stderr)
+        self.assertIn("'vdw'", self.expect(WRONG_USE, self.molecule("methanol"), "--preset", "vwd").stderr)
+        self.assertIn("'drop'", self.expect(WRONG_USE, self.molecule("methanol"), "--cavities", "dorp").stderr)
+        self.assertIn("'check'", self.expect(WRONG_USE, "chek", self.mesh).stderr)
+        self.assertIn("'--json'", self.expect(WRONG_USE, "check", self.mesh, "--jason").stderr)
+
+    def test_the_report_cannot_be_written(self):
+        self.mesh.write_text("an older mesh\n")
+        self.expect(BAD_INPUT, self.molecule("methanol"), "-o", self.mesh, "--report", "no/such/folder.json")
+        self.assertEqual(self.mesh.read_text(), "an older mesh\n")
+
+    def test_one_file_for_two_outputs(self):
+        for other in ["./out.off", self.mesh]:
+            self.expect(WRONG_USE, self.molecule("methanol"), "-o", "out.off", "-o", other)
+        self.expect(WRONG_USE, self.molecule("methanol"), "-o", "out.off", "--report", "out.off")
+        self.assertEqual(self.files(), [])
+
+    def test_full_disk(self):
+        """The first file fits the limit, the second does not: neither appears."""
+        self.mesh.write_text("an older mesh\n")
+        command = f"ulimit -f 8; exec {settings.program} {self.molecule('fas2')} --spacing 2 -o out.off -o out.ply"
+        result = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, BAD_INPUT, result.stderr)
+        self.assertRegex(result.stderr, "out.off: .*too large")
+        self.assertEqual(self.files(), ["out.off"])
+        self.assertEqual(self.mesh.read_text(), "an older mesh\n")
+        self.expect(BAD_INPUT, self.molecule("methanol"), "-o", "/dev/full", "--format", "off")
+
+    def test_a_signal_while_writing(self):
+        """A pipe that nobody reads holds the program in the middle of its second output; the first is still temporary."""
+        for name in ["SIGINT", "SIGTERM", "SIGHUP"]:
+            with self.subTest(name):
+                self.mesh.write_text("an older mesh\n")
+                pipe = self.folder / "pipe"
+                if not pipe.exists():
+                    os.mkfifo(pipe)
+                reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+                process = subprocess.Popen([settings.program, self.molecule("fas2"), "--spacing", "1.5", "--quiet",
+                                            "--format", "off", "-o", self.mesh, "-o", pipe], cwd=self.folder)
+                deadline = time.monotonic() + 60
+                while len(self.files()) < 3 and time.monotonic() < deadline:
+                    time.sleep(0.01)
+                self.assertEqual(len(self.files()), 3, "a temporary file beside the mesh")
+                time.sleep(0.2)
+                process.send_signal(getattr(signal, name))
+                self.assertEqual(process.wait(30), -getattr(signal, name))
+                os.close(reader)
+                self.assertEqual(self.files(), ["out.off", "pipe"])
+                self.assertEqual(self.mesh.read_text(), "an older mesh\n")
+
+    def test_two_runs_at_once_in_one_folder(self):
+        runs = [subprocess.Popen([settings.program, self.molecule("dmso"), "--quiet", "-o", self.mesh], cwd=self.folder)
+                for _ in range(4)]
+        self.assertEqual([run.wait(60) for run in runs], [0] * 4)
+        self.assertEqual(self.files(), ["out.off"])
+        self.expect(0, "check", self.mesh)
+
+    def test_a_bar_on_a_terminal_for_long_runs_only(self):
+        for arguments, is_long in [(["methanol"], False), (["fas2", "--spacing", "0.15", "--threads", "1"], True)]:
+            mine, theirs = os.openpty()
+            command = [settings.program, self.molecule(arguments[0]), *arguments[1:], "-o", self.mesh]
+            subprocess.run(command, stdout=subprocess.DEVNULL, stderr=theirs, timeout=200, check=True)
+            os.close(theirs)
+            drawn = b""
+            try:
+                while piece := os.read(mine, 65536):
+                    drawn += piece
+            except OSError:  # the end of a terminal
+                pass
+            os.close(mine)
+            self.assertEqual(b"[#" in drawn or b"[.." in drawn, is_long, drawn)
+            if is_long:
+                self.assertTrue(drawn.endswith(b"\r\x1b[K"), "and nothing is left of it")
+
+
+class Manual(CliTest):
+    def test_every_option_is_there(self):
+        pages = {kind: self.expect(0, "--print-manual", kind).stdout for kind in ("man", "bash", "zsh")}
+        for command in [[], ["check"], ["convert"]]:
+            for option in re.findall(r"--[a-z][a-z-]*", self.expect(0, *command, "--help").stdout):
+                self.assertIn(option.replace("-", "\\-"), pages["man"])
+                self.assertIn(option, pages["bash"])
+                self.assertIn(option, pages["zsh"])
+
+    def test_bash_completes(self):
+        script = self.write("complete", self.expect(0, "--print-manual", "bash").stdout)
+        for words, wanted in [("gaussmesh --pres", "--preset"), ("gaussmesh che", "check"),
+                              ("gaussmesh check --js", "--json")]:
+            line = words.split()
+            ask = (f"source {script}; COMP_WORDS=({words}); COMP_CWORD={len(line) - 1}; _gaussmesh; "
+                   "echo ${COMPREPLY[@]}")
+            said = subprocess.run(["bash", "-c", ask], capture_output=True, text=True, check=True).stdout
+            self.assertEqual(said.strip(), wanted)
 
 
 class Check(CliTest):

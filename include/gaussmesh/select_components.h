@@ -1,0 +1,33 @@
+// Parts of a mesh: without its cavities, or each closed surface for itself.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gaussmesh/check_mesh.h"
+#include "gaussmesh/read_mesh.h"
+#include "gaussmesh/triangle_mesh.h"
+
+namespace gaussmesh {
+
+/// The components that stay, by their place in MeshCheck::components.
+using ComponentList = std::vector<std::uint32_t>;
+
+/// Those that remain when cavities of less than `min_volume` (A^3) are left out, and all that lies in one left out.
+///
+/// A cavity's volume is all that its surface encloses. Infinity leaves out every cavity; what stays are the outsides
+/// that lie in nothing.
+ComponentList leave_out_cavities(const MeshCheck& check, double min_volume);
+
+/// All components: outsides first, then cavities, larger areas first.
+ComponentList outsides_first(const MeshCheck& check);
+
+/// The triangles of `components` with their vertices and what is known of them, in their order; numbers of components in
+/// the data count through `components`.
+///
+/// @param check  of `mesh`
+/// Cost: O(n).
+MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,
+                            const ComponentList& components);
+
+}  // namespace gaussmesh

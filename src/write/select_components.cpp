@@ -1,0 +1,66 @@
+#include "gaussmesh/select_components.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gaussmesh {
+namespace {
+
+bool is_cavity(const MeshComponent& component) { return component.volume < 0.0; }
+
+/// Whether a component or one that it lies in is a cavity smaller than `min_volume`.
+bool is_left_out(const MeshCheck& check, std::uint32_t component, double min_volume) {
+  for (std::optional<std::uint32_t> c = component; c; c = check.components[*c].parent) {
+    if (is_cavity(check.components[*c]) && -check.components[*c].volume < min_volume) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ComponentList leave_out_cavities(const MeshCheck& check, double min_volume) {
+  ComponentList list;
+  for (std::uint32_t c = 0; c < check.components.size(); ++c)
+    if (!is_left_out(check, c, min_volume)) list.push_back(c);
+  return list;
+}
+
+ComponentList outsides_first(const MeshCheck& check) {
+  ComponentList list(check.components.size());
+  std::iota(list.begin(), list.end(), 0u);
+  std::stable_partition(list.begin(), list.end(), [&](std::uint32_t c) { return !is_cavity(check.components[c]); });
+  return list;
+}
+
+MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,
+                            const ComponentList& components) {
+  std::vector<std::uint32_t> place_of(check.components.size(), kNoComponent);
+  for (std::uint32_t i = 0; i < components.size(); ++i) place_of[components[i]] = i;
+  const auto place = [&](std::size_t triangle) {
+    const std::uint32_t component = check.component_of[triangle];
+    return component == kNoComponent ? kNoComponent : place_of[component];
+  };
+  std::vector<std::uint32_t> component_of(mesh.vertices.size(), kNoComponent);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (place(t) == kNoComponent) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) component_of[v] = place(t);
+  }
+  MeshFile part;
+  std::vector<std::uint32_t> number(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (component_of[v] == kNoComponent) continue;
+    number[v] = static_cast<std::uint32_t>(part.mesh.vertices.size());
+    part.mesh.vertices.push_back(mesh.vertices[v]);
+    part.data.components.push_back(component_of[v]);
+    if (!data.normals.empty()) part.data.normals.push_back(data.normals[v]);
+    if (!data.atoms.empty()) part.data.atoms.push_back(data.atoms[v]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (place(t) == kNoComponent) continue;
+    part.mesh.triangles.push_back({number[a], number[b], number[c]});
+  }
+  return part;
+}
+
+}  // namespace gaussmesh
