@@ -3,12 +3,9 @@
 namespace gaussmesh {
 namespace {
 
-constexpr int kLogBrickCells = 3;
-static_assert(1 << kLogBrickCells == kBrickCells);
-
-/// Up to this size of box times d the moments of the atoms say more than their distances (1/A): there the exponents
-/// 2 d u.t of atoms about 1.5 A apart stay near one. A matter of cost only.
-constexpr double kModelReach = 0.9;
+/// Cells come in blocks that share a list of atoms: making one for each cell costs more than the atoms that it saves.
+constexpr int kBlockCells = 2;
+constexpr int kBlocks = kBrickCells / kBlockCells;
 
 }  // namespace
 
@@ -16,49 +13,47 @@ BrickWalker::BrickWalker(const GaussianField& field, const Lattice& lattice)
     : field_(field), lattice_(lattice), prover_(field.decay(), kProofDepth) {}
 
 void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
-  const FineIndex lo = brick_origin(brick);
+  const FineIndex origin = brick_origin(brick);
   const std::int64_t size = kBrickCells * kFinePerCell;
-  field_.collect_near(lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size}), stack_[kLogBrickCells]);
-  for (int child = 0; child < 8; ++child) {
-    const std::int64_t half = size / 2;
-    descend({lo[0] + (child & 1) * half, lo[1] + (child >> 1 & 1) * half, lo[2] + (child >> 2 & 1) * half},
-            kLogBrickCells - 1, visit);
+  field_.collect_near(lattice_box(lattice_, origin, {origin[0] + size, origin[1] + size, origin[2] + size}),
+                      brick_atoms_);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i <= kBrickCells; ++i) {
+      planes_[axis][i] = to_angstrom(lattice_.plane(axis, origin[axis] + i * kFinePerCell));
+    }
+  }
+  tables_.build(brick_atoms_, field_.decay(), planes_);
+  for (int block = 0; block < kBlocks * kBlocks * kBlocks; ++block) {
+    walk_block(origin, {block % kBlocks * kBlockCells, block / kBlocks % kBlocks * kBlockCells,
+                        block / (kBlocks * kBlocks) * kBlockCells}, visit);
   }
 }
 
-void BrickWalker::descend(const FineIndex& lo, int log_cells, const Visitor& visit) {
-  const std::int64_t size = kFinePerCell << log_cells;
-  const Box box = lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size});
-  NearAtoms& atoms = stack_[log_cells];
-  atoms.restrict_from(stack_[log_cells + 1], box, field_.decay(), kTruncation);
-  ++boxes_[2 - log_cells];
-  const bool model_pays = field_.decay() * (box.hi[0] - box.lo[0]) < kModelReach;
-  if (!model_pays) {
-    const CrudeBounds crude = crude_bounds(atoms, box, field_.decay());
-    if (crude.inside || crude.upper < 1.0) return;
+void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& first, const Visitor& visit) {
+  bool atoms_loaded = false;
+  for (int part = 0; part < kBlockCells * kBlockCells * kBlockCells; ++part) {
+    const int i = first[0] + (part & 1), j = first[1] + (part >> 1 & 1), k = first[2] + (part >> 2);
+    if (!tables_.may_cross(i, j, k)) continue;
+    if (!atoms_loaded) {
+      const Box block{{planes_[0][first[0]], planes_[1][first[1]], planes_[2][first[2]]},
+                      {planes_[0][first[0] + kBlockCells], planes_[1][first[1] + kBlockCells],
+                       planes_[2][first[2] + kBlockCells]}};
+      block_atoms_.restrict_from(brick_atoms_, block, field_.decay(), kTruncation);
+      proof_atoms_.restrict_from(block_atoms_, block, field_.decay(), kProofTruncation);
+      atoms_loaded = true;
+    }
+    const Box box{{planes_[0][i], planes_[1][j], planes_[2][k]}, {planes_[0][i + 1], planes_[1][j + 1], planes_[2][k + 1]}};
+    const LocalModel model(proof_atoms_, field_.decay(), box);
+    const CellCertificate certificate = prover_.certify(proof_atoms_, model);
+    if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
+    visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
+           i + kBrickCells * (j + kBrickCells * k),
+           block_atoms_,
+           model,
+           certificate,
+           tables_.corner(i, j, k),
+           {tables_.corner(i + 1, j, k), tables_.corner(i, j + 1, k), tables_.corner(i, j, k + 1)}});
   }
-  if (log_cells == 0) {
-    const LocalModel model(atoms, field_.decay(), box);
-    const CellCertificate certificate = prover_.certify(atoms, model);
-    if (certificate.kind != CellCertificate::Kind::kExcluded) visit({lo, atoms, model, certificate});
-    return;
-  }
-  if (model_pays) {
-    const Range value = LocalModel(atoms, field_.decay(), box).over_all().value();
-    if (value.hi < 0.0 || value.lo > 0.0) return;
-  }
-  const std::int64_t half = size / 2;
-  for (int child = 0; child < 8; ++child) {
-    descend({lo[0] + (child & 1) * half, lo[1] + (child >> 1 & 1) * half, lo[2] + (child >> 2 & 1) * half},
-            log_cells - 1, visit);
-  }
-}
-
-std::vector<std::size_t> BrickWalker::boxes_by_level() const {
-  std::vector<std::size_t> result(boxes_, boxes_ + 3);
-  const std::vector<std::size_t>& parts = prover_.boxes_by_depth();
-  result.insert(result.end(), parts.begin() + 1, parts.end());  // entry 0 counts the cells again
-  return result;
 }
 
 }  // namespace gaussmesh

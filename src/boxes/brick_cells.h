@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "boxes/brick_tables.h"
 #include "boxes/cell_prover.h"
-#include "boxes/find_bricks.h"
 
 namespace gaussmesh {
 
@@ -15,9 +15,12 @@ class BrickWalker {
   /// What is known of a cell that is not excluded; the references live as long as the call.
   struct Cell {
     FineIndex lo;
-    const NearAtoms& atoms;
-    const LocalModel& model;
+    int local;                     ///< i + 8 (j + 8 k) within the brick
+    const NearAtoms& atoms;        ///< collected for a box around the cell, with kTruncation
+    const LocalModel& model;       ///< of the cell, with kProofTruncation
     CellCertificate certificate;
+    Side lowest;                   ///< side of the lowest corner ...
+    std::array<Side, 3> next;      ///< ... and of the next one along each axis
   };
   using Visitor = std::function<void(const Cell&)>;
 
@@ -26,17 +29,18 @@ class BrickWalker {
   /// Calls `visit` for each cell that is not proven free of surface, in a fixed order.
   void walk(const BrickIndex& brick, const Visitor& visit);
 
-  /// Boxes looked at so far: [0..2] cubes of 4, 2 and 1 cells, then sub-boxes of cells, halving.
-  std::vector<std::size_t> boxes_by_level() const;
+  /// Boxes looked at so far: cells, then sub-boxes of cells, halving.
+  const std::vector<std::size_t>& boxes_by_level() const { return prover_.boxes_by_depth(); }
 
  private:
-  void descend(const FineIndex& lo, int log_cells, const Visitor& visit);
+  void walk_block(const FineIndex& origin, const std::array<int, 3>& first, const Visitor& visit);
 
   const GaussianField& field_;
   const Lattice& lattice_;
   CellProver prover_;
-  NearAtoms stack_[4];          ///< atoms near the boxes on the way down, by size
-  std::size_t boxes_[3]{};
+  NearAtoms brick_atoms_, block_atoms_, proof_atoms_;
+  BrickTables::Planes planes_{};
+  BrickTables tables_;
 };
 
 /// How often a cell is halved in search of a common axis.

@@ -39,16 +39,56 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   for (int axis : axes) {
     if (const int sign = proven_sign(view.slope(axis))) return {Kind::kMonotone, axis, sign};
   }
-  for (int axis : axes) {
-    const int sign = gradient[axis] > 0.0 ? 1 : -1;
-    if (prove_monotone(atoms, model.box(), axis, sign, depth_)) return {Kind::kMonotone, axis, sign};
+  if (depth_ == 0) return {Kind::kUncertified, 0, 0};
+
+  // What each eighth of the cell shows by itself is found once for all directions; those that fewest eighths leave open
+  // are looked at more closely first.
+  cell_atoms_.restrict_from(atoms, model.box(), decay_, atoms.cut);
+  Part parts[8];
+  int open_parts[6] = {};
+  bool refuted[6] = {};
+  for (int child = 0; child < 8; ++child) {
+    parts[child] = look_at(cell_atoms_, child_box(model.box(), child), depth_);
+    for (int direction = 0; direction < 6; ++direction) {
+      open_parts[direction] += !(parts[child].proven >> direction & 1);
+      refuted[direction] = refuted[direction] || (parts[child].refuted >> direction & 1);
+    }
   }
-  // The gradient in the middle says little of a surface that only grazes the cell.
-  for (int axis : axes) {
-    const int sign = gradient[axis] > 0.0 ? -1 : 1;
-    if (prove_monotone(atoms, model.box(), axis, sign, depth_)) return {Kind::kMonotone, axis, sign};
+  // The gradient in the middle says little of a surface that only grazes the cell: the other signs come last.
+  int order[6];
+  for (int i = 0; i < 3; ++i) {
+    order[i] = 2 * axes[i] + (gradient[axes[i]] > 0.0);
+    order[i + 3] = order[i] ^ 1;
+  }
+  std::stable_sort(order, order + 6, [&](int a, int b) { return open_parts[a] < open_parts[b]; });
+  for (const int direction : order) {
+    if (refuted[direction]) continue;
+    const int axis = direction / 2, sign = direction % 2 == 1 ? 1 : -1;
+    bool proven = true;
+    for (int child = 0; proven && child < 8; ++child) {
+      if (parts[child].proven >> direction & 1) continue;
+      proven = depth_ > 1 && prove_monotone(cell_atoms_, child_box(model.box(), child), axis, sign, depth_ - 1);
+    }
+    if (proven) return {Kind::kMonotone, axis, sign};
   }
   return {Kind::kUncertified, 0, 0};
+}
+
+CellProver::Part CellProver::look_at(const NearAtoms& atoms, const Box& box, int depth) {
+  ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)];
+  const LocalModel model(atoms, decay_, box);
+  const LocalModel::View view = model.over_all();
+  if (is_excluded(view.value())) return {0x3F, 0};
+  Part part;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const int sign = proven_sign(view.slope(axis))) part.proven |= 1u << (2 * axis + (sign > 0));
+  }
+  if (part.proven != 0 && surface_is_surely_near(view, box)) {
+    for (int direction = 0; direction < 6; ++direction) {
+      if (part.proven >> (direction ^ 1) & 1) part.refuted |= 1u << direction;
+    }
+  }
+  return part;
 }
 
 bool CellProver::prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth) {

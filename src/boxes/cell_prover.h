@@ -24,7 +24,7 @@ class CellProver {
   /// @param depth  how often a cell is halved before its axis counts as unproven
   CellProver(double decay, int depth) : decay_(decay), depth_(depth) {}
 
-  /// `model` is over the whole cell; `atoms` were collected for the cell.
+  /// `model` is over the whole cell; `atoms` were collected for a box around it.
   CellCertificate certify(const NearAtoms& atoms, const LocalModel& model);
 
   /// Whether d(phi)/d(axis) has `sign` wherever phi = c in `box`: proven through sub-boxes, or not.
@@ -34,8 +34,16 @@ class CellProver {
   const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }
 
  private:
+  /// What the model of a box shows by itself; bit 2 k + 1 is the direction of growth along axis k, bit 2 k that of fall.
+  struct Part {
+    unsigned proven = 0;    ///< all bits where there is no surface
+    unsigned refuted = 0;   ///< the surface is surely here, and phi passes c the other way
+  };
+  Part look_at(const NearAtoms& atoms, const Box& box, int depth);
+
   double decay_;
   int depth_;
+  NearAtoms cell_atoms_;
   std::vector<std::size_t> boxes_by_depth_ = std::vector<std::size_t>(16, 0);
 };
 

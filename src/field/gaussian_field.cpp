@@ -73,6 +73,9 @@ std::uint32_t GaussianField::build(std::uint32_t first, std::uint32_t last) {
 
 void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) const {
   near.clear();
+  near.cut = cut;
+  std::size_t left_out = 0;
+  double left_out_w = -kEmptyLo;
   std::uint32_t stack[64];
   int top = 0;
   stack[top++] = 0;
@@ -90,13 +93,17 @@ void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) co
         const WeightedCentre& a = sorted_[i];
         const double atom_sq = distance_sq({a.centre, a.centre}, box);
         if (a.w - decay_ * atom_sq < -cut) {
-          near.add_to_tail(1.0, a.w, atom_sq, decay_);
+          ++left_out;
+          left_out_w = std::max(left_out_w, std::abs(a.w));
         } else {
           near.add(a.centre[0], a.centre[1], a.centre[2], a.w);
         }
       }
     }
   }
+  // As in NearAtoms::restrict_from(): rounding of the exponents.
+  const double slack = left_out > 0 ? 4e-15 * (2.0 * left_out_w + cut) + 1e-12 : 0.0;
+  near.add_cut_to_tail(static_cast<double>(left_out), left_out_w, cut - slack, decay_);
 }
 
 }  // namespace gaussmesh

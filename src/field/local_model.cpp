@@ -116,9 +116,10 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
   atoms_hi_ = atoms.hi;
 
   thread_local std::vector<double> weight;
-  weight.resize(std::max(weight.size(), n));
+  const std::size_t padded = atoms.padded();
+  weight.resize(std::max(weight.size(), padded));
   const auto moments_with = [&](double shift) {
-    return first_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), weight.data(), n, decay,
+    return first_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), weight.data(), padded, decay,
                          middle_.data(), shift);
   };
   double shift = 0.0;
@@ -131,7 +132,7 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
   psi_ = shift + std::log(first.total);
   mean_offset_ = {first.ux * inverse, first.uy * inverse, first.uz * inverse};
   const Vec3 centre = {middle_[0] - mean_offset_[0], middle_[1] - mean_offset_[1], middle_[2] - mean_offset_[2]};
-  const CentralMoments moments = central_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), weight.data(), n,
+  const CentralMoments moments = central_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), weight.data(), padded,
                                                  decay, centre.data(), half_.data());
   for (int i = 0; i < 6; ++i) second_[i] = moments.second[i] * inverse;
   for (int i = 0; i < 10; ++i) third_[i] = moments.third[i] * inverse;

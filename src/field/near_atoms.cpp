@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "core/simd.h"
 #include "core/vector_exp.h"
 
 namespace gaussmesh {
@@ -14,13 +17,37 @@ inline double gap(double p, double lo, double hi) { return std::max(0.0, std::ma
 /// Exponents are differences of numbers up to 1e12 (the limits of coordinates and radii): a slack for their rounding.
 inline double exponent_slack(double w, double decay_times_sq) { return 1e-15 * (std::abs(w) + decay_times_sq) + 1e-12; }
 
+/// Log-weight of the entries that fill up a vector: e^-1e30 is 0, and vector_exp() of it 1e-304, 1e-200 times less than
+/// any sum that it is added to.
+constexpr double kNoWeight = -1e30;
+
+GAUSSMESH_SIMD_CLONES
+void exponents_in(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+                  const double* lo, const double* hi, double* exponent) {
+  const double ax = lo[0], ay = lo[1], az = lo[2], bx = hi[0], by = hi[1], bz = hi[2];
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const double dx = gap(x[i], ax, bx), dy = gap(y[i], ay, by), dz = gap(z[i], az, bz);
+    exponent[i] = w[i] - d * (dx * dx + dy * dy + dz * dz);
+  }
+}
+
+/// Copies chosen entries and gives their least and largest; there is at least one.
+std::pair<double, double> gather(const double* from, const std::uint32_t* index, std::size_t n, double* to) {
+  double least = from[index[0]], largest = least;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double v = from[index[i]];
+    to[i] = v;
+    least = v < least ? v : least;
+    largest = v > largest ? v : largest;
+  }
+  return {least, largest};
+}
+
 }  // namespace
 
 void NearAtoms::clear() {
-  x.clear();
-  y.clear();
-  z.clear();
-  w.clear();
+  size_ = 0;
   tail = tail_slope = w_size = 0.0;
   lo = {kEmptyLo, kEmptyLo, kEmptyLo};
   hi = {-kEmptyLo, -kEmptyLo, -kEmptyLo};
@@ -30,10 +57,25 @@ void NearAtoms::add(double ax, double ay, double az, double aw) {
   lo = {std::min(lo[0], ax), std::min(lo[1], ay), std::min(lo[2], az)};
   hi = {std::max(hi[0], ax), std::max(hi[1], ay), std::max(hi[2], az)};
   w_size = std::max(w_size, std::abs(aw));
-  x.push_back(ax);
-  y.push_back(ay);
-  z.push_back(az);
-  w.push_back(aw);
+  if (size_ % kLanes == 0) resize(size_ + kLanes);
+  if (size_ % kLanes == 0) {
+    for (std::size_t i = size_; i < size_ + kLanes; ++i) {
+      x[i] = ax;
+      y[i] = ay;
+      z[i] = az;
+      w[i] = kNoWeight;
+    }
+  }
+  x[size_] = ax;
+  y[size_] = ay;
+  z[size_] = az;
+  w[size_] = aw;
+  ++size_;
+}
+
+void NearAtoms::resize(std::size_t count) {
+  if (x.size() >= count) return;
+  for (std::vector<double>* list : {&x, &y, &z, &w}) list->resize(std::max(count, 2 * list->size()));
 }
 
 void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, double decay) {
@@ -45,21 +87,47 @@ void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, doub
   tail_slope += 2.0 * decay * r * value * (1.0 + 1e-9);
 }
 
-void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double decay, double cut) {
+void NearAtoms::add_cut_to_tail(double count, double w_max, double at_cut, double decay) {
+  if (count == 0.0) return;
+  // The slope 2 d r e^E of an atom with exponent E = w - d r^2 < -at_cut is 2 sqrt(d (w - E)) e^E, which grows with E up to
+  // w - E = 1/2.
+  const double value = count * (std::exp(-at_cut) * (1.0 + 1e-9) + 1e-300);
+  tail += value;
+  tail_slope += 2.0 * std::sqrt(decay * std::max(w_max + at_cut, 0.5)) * value * (1.0 + 1e-9);
+}
+
+void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut) {
   clear();
+  cut = new_cut;
   tail = parent.tail;
   tail_slope = parent.tail_slope;
-  for (std::size_t i = 0; i < parent.size(); ++i) {
-    const double dx = gap(parent.x[i], box.lo[0], box.hi[0]);
-    const double dy = gap(parent.y[i], box.lo[1], box.hi[1]);
-    const double dz = gap(parent.z[i], box.lo[2], box.hi[2]);
-    const double distance_sq = dx * dx + dy * dy + dz * dz;
-    if (parent.w[i] - decay * distance_sq >= -cut) {
-      add(parent.x[i], parent.y[i], parent.z[i], parent.w[i]);
-    } else {
-      add_to_tail(1.0, parent.w[i], distance_sq, decay);
-    }
+  thread_local std::vector<double> exponent;
+  thread_local std::vector<std::uint32_t> kept;
+  if (exponent.size() < parent.padded()) {
+    exponent.resize(parent.padded());
+    kept.resize(parent.padded());
   }
+  exponents_in(parent.x.data(), parent.y.data(), parent.z.data(), parent.w.data(), parent.padded(), decay,
+               box.lo.data(), box.hi.data(), exponent.data());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    kept[count] = static_cast<std::uint32_t>(i);
+    count += exponent[i] >= -cut;
+  }
+  // Rounding of the exponents: those a little below the cut may be left out as well.
+  const double slack = 4e-15 * (2.0 * parent.w_size + cut) + 1e-12;
+  add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, cut - slack, decay);
+  if (count == 0) return;
+  size_ = count;
+  resize(padded());
+  for (std::size_t i = count; i < padded(); ++i) kept[i] = kept[0];
+  const std::size_t n = padded();
+  std::tie(lo[0], hi[0]) = gather(parent.x.data(), kept.data(), n, x.data());
+  std::tie(lo[1], hi[1]) = gather(parent.y.data(), kept.data(), n, y.data());
+  std::tie(lo[2], hi[2]) = gather(parent.z.data(), kept.data(), n, z.data());
+  const auto [w_lo, w_hi] = gather(parent.w.data(), kept.data(), n, w.data());
+  w_size = std::max(std::abs(w_lo), std::abs(w_hi));
+  for (std::size_t i = count; i < n; ++i) w[i] = kNoWeight;
 }
 
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -18,28 +19,44 @@ inline constexpr double kEmptyLo = std::numeric_limits<double>::infinity();
 /// of its gradient.
 class NearAtoms {
  public:
+  /// Arrays are filled up to whole SIMD vectors: entries from size() to padded() - 1 have a weight of zero.
   std::vector<double> x, y, z;  ///< centres (A)
   std::vector<double> w;        ///< log-weights
   Vec3 lo{kEmptyLo, kEmptyLo, kEmptyLo};   ///< box round the centres, turned inside out while there are none
   Vec3 hi{-kEmptyLo, -kEmptyLo, -kEmptyLo};
   double w_size = 0.0;          ///< largest |w|
+  double cut = 0.0;             ///< atoms with a log-weight below -cut everywhere in the box were left out
   double tail = 0.0;
   double tail_slope = 0.0;      ///< 1/A
 
-  std::size_t size() const { return w.size(); }
+  std::size_t size() const { return size_; }
+  std::size_t padded() const { return (size_ + kLanes - 1) / kLanes * kLanes; }
   void clear();
   void add(double ax, double ay, double az, double aw);
 
   /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and at least `distance_sq` away.
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
+  /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and w - d dist^2 < -at_cut.
+  void add_cut_to_tail(double count, double w_max, double at_cut, double decay);
+
   /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with
-  /// w - d dist^2 >= -cut. Cost: one pass over the parent's atoms.
-  void restrict_from(const NearAtoms& parent, const Box& box, double decay, double cut);
+  /// w - d dist^2 >= -new_cut. Cost: one pass over the parent's atoms, some 0.5 ns each.
+  void restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut);
+
+ private:
+  static constexpr std::size_t kLanes = 8;
+
+  void resize(std::size_t count);
+
+  std::size_t size_ = 0;
 };
 
 /// Log-weight, relative to c, below which an atom is left out: e^-23 = 1e-10.
 inline constexpr double kTruncation = 23.0;
+
+/// The same for proofs, where the atoms left out are part of the bounds: e^-13 = 2e-6.
+inline constexpr double kProofTruncation = 13.0;
 
 /// The same where little things matter, in small cells near singular places: e^-40 = 4e-18.
 inline constexpr double kFineTruncation = 40.0;

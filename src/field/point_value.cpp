@@ -53,7 +53,7 @@ double weight_error(double exponent_size, std::size_t n) {
 }
 
 double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& p) {
-  return largest_of(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.size(), decay, p[0], p[1],
+  return largest_of(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0], p[1],
                     p[2]);
 }
 
@@ -65,7 +65,7 @@ PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
     return result;
   }
   const auto sums_with = [&](double shift) {
-    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), n, decay, p[0], p[1], p[2],
+    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0], p[1], p[2],
                        shift);
   };
   double shift = 0.0;

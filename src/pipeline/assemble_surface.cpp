@@ -15,10 +15,11 @@ namespace {
 class BrickTracer {
  public:
   BrickTracer(const GaussianField& field, const Lattice& lattice, const CellStore& store)
-      : lattice_(lattice), store_(store), tracer_(field, lattice) {}
+      : field_(field), lattice_(lattice), store_(store), tracer_(field, lattice) {}
 
   TracedBrick trace(std::uint32_t brick_number) {
     TracedBrick result;
+    atoms_loaded_ = false;
     const Brick& brick = store_.bricks()[brick_number];
     result.counts.resize(brick.cells.size());
     for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
@@ -37,8 +38,9 @@ class BrickTracer {
   void trace_face(const CellStore::Place& place, int axis, TracedBrick& result) {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
+    const FaceCertificate certificate = certificate_of(place, axis);
     collect_roots(place, axis);
-    if (cell.face[axis] != kFaceUncertified) {
+    if (certificate != kFaceUncertified) {
       if (roots_.empty()) return;
       if (cell.fold_axes[axis] == 0 && roots_.size() == 2 && roots_[0].boundary_side != roots_[1].boundary_side) {
         const bool first_starts = roots_[0].boundary_side < 2 ? roots_[0].rise < 0 : roots_[0].rise > 0;
@@ -51,11 +53,33 @@ class BrickTracer {
     CoordPoint hi = lo;
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
-    const FaceCurves& curves = tracer_.trace(axis, lo, hi, cell.face[axis], roots_, cell.fold_axes[axis]);
+    load_atoms(place);
+    const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.fold_axes[axis]);
     const auto base = static_cast<std::uint32_t>(result.points.size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
     result.points.insert(result.points.end(), curves.points.begin(), curves.points.end());
+  }
+
+  /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in it.
+  FaceCertificate certificate_of(const CellStore::Place& place, int axis) const {
+    const SurfaceCell& cell = store_.cell(place);
+    if (cell.face[axis] != kFaceUncertified) return cell.face[axis];
+    const auto below = store_.find(moved(store_.lowest_corner(place), axis, -kFinePerCell), place.brick);
+    if (!below) return kFaceEmpty;
+    const SurfaceCell& other = store_.cell(*below);
+    if (other.sign == 0 || other.axis == axis) return kFaceUncertified;
+    return other.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
+  }
+
+  /// The atoms of the whole brick, when the first face needs some.
+  void load_atoms(const CellStore::Place& place) {
+    if (atoms_loaded_) return;
+    const FineIndex lo = brick_origin(store_.bricks()[place.brick].index);
+    const std::int64_t size = kBrickCells * kFinePerCell;
+    field_.collect_near(lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size}), atoms_, kFineTruncation);
+    tracer_.take_atoms_from(&atoms_);
+    atoms_loaded_ = true;
   }
 
   void collect_roots(const CellStore::Place& place, int axis) {
@@ -75,9 +99,12 @@ class BrickTracer {
     for (const EdgeRoot& root : roots) roots_.push_back({vertex++, root.point.position, side, root.side});
   }
 
+  const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
   FaceTracer tracer_;
+  NearAtoms atoms_;
+  bool atoms_loaded_ = false;
   std::vector<FaceRoot> roots_;
 };
 

@@ -32,10 +32,7 @@ class BrickBuilder {
  private:
   void add_cell(Brick& brick, const BrickWalker::Cell& found) {
     SurfaceCell cell;
-    const FineIndex origin = brick_origin(brick.index);
-    std::int64_t local[3];
-    for (int k = 0; k < 3; ++k) local[k] = (found.lo[k] - origin[k]) / kFinePerCell;
-    cell.local = static_cast<std::uint16_t>(local[0] + kBrickCells * (local[1] + kBrickCells * local[2]));
+    cell.local = static_cast<std::uint16_t>(found.local);
     if (found.certificate.kind == CellCertificate::Kind::kMonotone) {
       cell.axis = static_cast<std::int8_t>(found.certificate.axis);
       cell.sign = static_cast<std::int8_t>(found.certificate.sign);
@@ -43,17 +40,27 @@ class BrickBuilder {
     cell.first_root = static_cast<std::uint32_t>(brick.roots.size());
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto roots = roots_.find(found.atoms, found.model, axis, lo,
-                                     lattice_.plane(axis, found.lo[axis] + kFinePerCell));
+      const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
+      const bool is_monotone = cell.sign != 0 && cell.axis == axis;
+      const EdgeEnds ends{found.lowest, found.next[axis], is_monotone};
+      cell.face[axis] = face_certificate(found, axis);
+      if (roots_.is_free(found.model, axis, lo, hi, ends)) continue;
+      const auto roots = roots_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
       cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());
       brick.roots.insert(brick.roots.end(), roots.begin(), roots.end());
-      FineIndex hi = found.lo;
-      hi[first_axis(axis)] += kFinePerCell;
-      hi[second_axis(axis)] += kFinePerCell;
-      cell.face[axis] = certify_face(found.model, axis, lattice_box(lattice_, found.lo, hi));
     }
     brick.cells.push_back(cell);
+  }
+
+  /// The low face of a cell across `axis`: single-valued along the axis of the cell if that lies in it.
+  FaceCertificate face_certificate(const BrickWalker::Cell& found, int axis) const {
+    if (found.certificate.kind == CellCertificate::Kind::kMonotone && found.certificate.axis != axis) {
+      return found.certificate.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
+    }
+    Box face = found.model.box();
+    face.hi[axis] = face.lo[axis];
+    return certify_face(found.model, axis, face);
   }
 
   const Lattice& lattice_;

@@ -83,7 +83,7 @@ TriangleMesh to_mesh(const SurfaceMesh& surface) {
 
 void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
   for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
-    report.boxes.push_back({cell_size * std::ldexp(1.0, 2 - static_cast<int>(i)), trace.boxes_by_level[i]});
+    report.boxes.push_back({cell_size * std::ldexp(1.0, -static_cast<int>(i)), trace.boxes_by_level[i]});
   }
   report.smallest_box = trace.smallest_box;
   report.cells = trace.cells;

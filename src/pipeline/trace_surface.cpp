@@ -33,7 +33,7 @@ void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult&
   }
   result.bricks = store.bricks().size();
   while (!result.boxes_by_level.empty() && result.boxes_by_level.back() == 0) result.boxes_by_level.pop_back();
-  const int halvings = static_cast<int>(result.boxes_by_level.size()) - 3;
+  const int halvings = static_cast<int>(result.boxes_by_level.size()) - 1;
   result.smallest_box = lattice.cell_size() * std::ldexp(1.0, -std::max(0, halvings));
 }
 

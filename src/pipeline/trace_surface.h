@@ -12,7 +12,7 @@ namespace gaussmesh {
 struct TraceResult {
   SurfaceMesh surface;
   std::vector<UncertifiedPlace> uncertified;   ///< not empty: no proof at the depth limit, and no surface
-  std::vector<std::size_t> boxes_by_level;     ///< cubes of 4, 2 and 1 cells, then parts of cells, halving
+  std::vector<std::size_t> boxes_by_level;     ///< cells, then parts of cells, halving
   std::size_t bricks = 0;
   std::size_t cells = 0;
   std::size_t cells_split = 0;

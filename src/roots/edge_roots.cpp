@@ -80,6 +80,21 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
   throw InternalError("a bracketed root was not found in 200 steps");
 }
 
+bool EdgeRootFinder::is_free(const LocalModel& model, int axis, const CoordPoint& lo, Coord hi,
+                             const EdgeEnds& ends) const {
+  const bool sides_known = ends.lo != Side::kUnknown && ends.hi != Side::kUnknown;
+  if (sides_known && ends.lo != ends.hi) return false;
+  if (sides_known && ends.is_monotone) return true;
+  Box edge{to_angstrom(lo), to_angstrom(lo)};
+  edge.hi[axis] = to_angstrom(hi);
+  const LocalModel::View view = model.over(edge);
+  const Range value = view.value();
+  if (value.hi < 0.0 || value.lo > 0.0) return true;
+  if (!sides_known) return false;
+  const Range slope = view.slope(axis);
+  return slope.lo > 0.0 || slope.hi < 0.0;
+}
+
 Vec3 EdgeRootFinder::at(double x) const {
   Vec3 p = base_;
   p[axis_] = x;
@@ -87,7 +102,7 @@ Vec3 EdgeRootFinder::at(double x) const {
 }
 
 std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const LocalModel& model, int axis,
-                                               const CoordPoint& lo, Coord hi) {
+                                               const CoordPoint& lo, Coord hi, const EdgeEnds& ends) {
   atoms_ = &atoms;
   axis_ = axis;
   lo_ = lo;
@@ -95,8 +110,16 @@ std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const Loc
   base_ = to_angstrom(lo);
   roots_.clear();
   const double a = base_[axis], b = to_angstrom(hi);
-  if (const Range range = model.over({at(a), at(b)}).value(); range.hi < 0.0 || range.lo > 0.0) return roots_;
-  isolate(model, {a, b, is_inside(field_, atoms, model, at(a)), is_inside(field_, atoms, model, at(b))});
+  if (is_free(model, axis, lo, hi, ends)) return roots_;
+  const auto inside = [&](Side known, double x) {
+    return known == Side::kUnknown ? is_inside(field_, atoms, model, at(x)) : known == Side::kInside;
+  };
+  const Segment whole{a, b, inside(ends.lo, a), inside(ends.hi, b)};
+  if (!ends.is_monotone) {
+    isolate(model, whole);
+  } else if (whole.inside_a != whole.inside_b) {
+    refine(model, whole);
+  }
   for (std::size_t i = 1; i < roots_.size(); ++i) {
     if (roots_[i - 1].point.position[axis_] >= roots_[i].point.position[axis_]) {
       throw LatticeDegenerate(to_angstrom(roots_[i].point.position));

@@ -8,6 +8,7 @@
 
 #include "field/gaussian_field.h"
 #include "field/local_model.h"
+#include "field/point_value.h"
 
 namespace gaussmesh {
 
@@ -24,6 +25,13 @@ struct EdgeRoot {
   std::int8_t side = 0;  ///< +1: enters the molecule along the edge; -1: leaves it
 };
 
+/// What is known of an edge beforehand.
+struct EdgeEnds {
+  Side lo = Side::kUnknown;   ///< of its lower end
+  Side hi = Side::kUnknown;
+  bool is_monotone = false;   ///< phi passes c in one direction only along the edge
+};
+
 /// Finds every root of phi = c on lattice edges.
 ///
 /// Following [CL11] roots are found on lines along x, y and z; the proof of completeness is ours: the edge is cut into
@@ -37,7 +45,10 @@ class EdgeRootFinder {
   /// plane of the finest lattice. `model` is over a box that contains the edge, and `atoms` were collected for one.
   /// @throws LatticeDegenerate where two roots, or a root and a lattice plane, cannot be told apart
   std::span<const EdgeRoot> find(const NearAtoms& atoms, const LocalModel& model, int axis, const CoordPoint& lo,
-                                 Coord hi);
+                                 Coord hi, const EdgeEnds& ends = {});
+
+  /// Whether bounds show at once that the edge has no root. `atoms` are not needed for that.
+  bool is_free(const LocalModel& model, int axis, const CoordPoint& lo, Coord hi, const EdgeEnds& ends) const;
 
  private:
   struct Segment {

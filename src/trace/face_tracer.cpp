@@ -13,6 +13,9 @@ namespace {
 /// A rectangle is not cut below this (units): ten times the distance at which roots are told apart.
 constexpr Coord kSmallestRect = 100;
 
+/// How often a rectangle is halved in search of an axis before it is cut.
+constexpr int kProofHalvings = 3;
+
 /// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
 constexpr int kMaxRefinements = 8;
 
@@ -36,8 +39,27 @@ PlanePoint FaceTracer::plane(int point) const {
 
 void FaceTracer::load_atoms() {
   if (atoms_loaded_) return;
-  field_.collect_near({to_angstrom(face_.lo), to_angstrom(face_.hi)}, atoms_, kFineTruncation);
+  collect_atoms(atoms_, kFineTruncation);
   atoms_loaded_ = true;
+}
+
+const NearAtoms& FaceTracer::proof_atoms_of(const Rect& rect) {
+  // Parts of a face can be so small that atoms left out decide.
+  if (!parent_ || rect.lo != face_.lo || rect.hi != face_.hi) {
+    load_atoms();
+    return atoms_;
+  }
+  collect_atoms(proof_atoms_, kProofTruncation);
+  return proof_atoms_;
+}
+
+void FaceTracer::collect_atoms(NearAtoms& atoms, double cut) const {
+  const Box box{to_angstrom(face_.lo), to_angstrom(face_.hi)};
+  if (parent_) {
+    atoms.restrict_from(*parent_, box, field_.decay(), cut);
+  } else {
+    field_.collect_near(box, atoms, cut);
+  }
 }
 
 const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
@@ -89,16 +111,43 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
   }
   if ((certificate & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
   if ((certificate & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
-  load_atoms();
+  const NearAtoms& atoms = proof_atoms_of(rect);
   const Box box{to_angstrom(rect.lo), to_angstrom(rect.hi)};
-  const FaceCertificate closer = certify_face(LocalModel(atoms_, field_.decay(), box), axis_, box);
+  const LocalModel model(atoms, field_.decay(), box);
+  const FaceCertificate closer = certify_face(model, axis_, box);
   if (closer == kFaceEmpty) {
     if (!roots.empty()) throw LatticeDegenerate(box.lo);
     return;
   }
   if ((closer & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
   if ((closer & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
+  // Through parts of the rectangle, as cells are certified: cheaper than cutting it, which adds roots on the cuts.
+  const Vec3 gradient = model.over_all().middle_gradient();
+  int axes[2] = {first_axis(axis_), second_axis(axis_)};
+  if (std::abs(gradient[axes[0]]) < std::abs(gradient[axes[1]])) std::swap(axes[0], axes[1]);
+  for (const int along : axes) {
+    const int sign = gradient[along] > 0.0 ? 1 : -1;
+    if (prove_along(atoms, box, along, sign, kProofHalvings) && pair_roots(rect, along, roots)) return;
+  }
   split_rect(rect, roots);
+}
+
+bool FaceTracer::prove_along(const NearAtoms& atoms, const Box& rect, int along, int sign, int depth) const {
+  const int a = first_axis(axis_), b = second_axis(axis_);
+  for (int child = 0; child < 4; ++child) {
+    Box part = rect;
+    (child & 1 ? part.lo : part.hi)[a] = 0.5 * (rect.lo[a] + rect.hi[a]);
+    (child & 2 ? part.lo : part.hi)[b] = 0.5 * (rect.lo[b] + rect.hi[b]);
+    const LocalModel model(atoms, field_.decay(), part);
+    const LocalModel::View view = model.over_all();
+    const Range value = view.value();
+    if (value.hi < 0.0 || value.lo > 0.0) continue;
+    const Range slope = view.slope(along);
+    if (sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0) continue;
+    if (depth <= 1 || (sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) return false;
+    if (!prove_along(atoms, part, along, sign, depth - 1)) return false;
+  }
+  return true;
 }
 
 bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots) {
@@ -128,6 +177,7 @@ std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(int edge_axis, const Coo
   CoordPoint end = lo;
   end[edge_axis] = hi;
   const Box box{to_angstrom(lo), to_angstrom(end)};
+  load_atoms();
   const LocalModel model(atoms_, field_.decay(), box);
   std::vector<RectRoot> result;
   for (const EdgeRoot& root : finder_.find(atoms_, model, edge_axis, lo, hi)) {

@@ -64,6 +64,10 @@ class FaceTracer {
   FaceTracer(const GaussianField& field, const Lattice& lattice)
       : field_(field), finder_(field, lattice) {}
 
+  /// Atoms for the faces to come are taken from `parent`, collected with kFineTruncation for a box round them, which lives
+  /// as long as they are traced; nullptr: from the field.
+  void take_atoms_from(const NearAtoms* parent) { parent_ = parent; }
+
   /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`
   /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of axis k
   /// @throws LatticeDegenerate where roots and curves do not fit together to rounding
@@ -97,6 +101,7 @@ class FaceTracer {
 
   void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
   bool pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots);
+  bool prove_along(const NearAtoms& atoms, const Box& rect, int along, int sign, int depth) const;
   void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
   std::vector<RectRoot> cut_roots(int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
@@ -111,13 +116,16 @@ class FaceTracer {
   void refine_all();
   void emit();
   void load_atoms();
+  const NearAtoms& proof_atoms_of(const Rect& rect);
+  void collect_atoms(NearAtoms& atoms, double cut) const;
   PlanePoint plane(int point) const;
   int length_of(const Chain& chain) const;
   bool starts_curve(const RectRoot& root) const;
 
   const GaussianField& field_;
   EdgeRootFinder finder_;
-  NearAtoms atoms_;
+  NearAtoms atoms_, proof_atoms_;
+  const NearAtoms* parent_ = nullptr;
   bool atoms_loaded_ = false;
   int axis_ = 0;
   Rect face_;

@@ -135,7 +135,7 @@ TEST_CASE("with no cut every atom is in the list, with its log-weight") {
   CHECK(left_out(atoms, near).empty());
   std::vector<double> weights;
   for (const Atom& a : atoms) weights.push_back(0.7 * a.radius * a.radius - std::log(kIsovalue));
-  std::vector<double> found = near.w;
+  std::vector<double> found(near.w.begin(), near.w.begin() + static_cast<std::ptrdiff_t>(near.size()));
   std::sort(weights.begin(), weights.end());
   std::sort(found.begin(), found.end());
   for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(weights[i]).epsilon(1e-14));

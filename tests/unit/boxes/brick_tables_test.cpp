@@ -1,0 +1,83 @@
+#include "boxes/brick_tables.h"
+
+#include "catch2.h"
+#include "support/fields.h"
+
+using namespace gaussmesh;
+using namespace gaussmesh::testing;
+
+namespace {
+
+BrickTables::Planes planes_of(const Vec3& lo, double cell) {
+  BrickTables::Planes planes;
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i <= kBrickCells; ++i) planes[k][i] = lo[k] + i * cell;
+  }
+  return planes;
+}
+
+Box cell_of(const BrickTables::Planes& planes, int i, int j, int k) {
+  return {{planes[0][i], planes[1][j], planes[2][k]}, {planes[0][i + 1], planes[1][j + 1], planes[2][k + 1]}};
+}
+
+}  // namespace
+
+TEST_CASE("no cell that the surface passes through is dropped, and corners are on the side where they are") {
+  const std::uint64_t seed = 46;
+  CAPTURE(seed);
+  Random random(seed);
+  BrickTables tables;
+  std::size_t crossed = 0, dropped = 0, known = 0, corners = 0;
+  for (const FieldSample& sample : field_samples(seed)) {
+    CAPTURE(sample.what);
+    for (int n = 0; n < 8; ++n) {
+      const double decay = random.logarithmic(0.3, 3.0), isovalue = random.logarithmic(0.3, 3.0);
+      CAPTURE(decay, isovalue, n);
+      const GaussianField field(sample.atoms, decay, isovalue);
+      const ExactField exact(sample.atoms, decay, isovalue);
+      const double cell = random.logarithmic(0.1, 1.5);
+      const auto planes = planes_of(random_point(random, sample.room), cell);
+      NearAtoms near;
+      field.collect_near({{planes[0][0], planes[1][0], planes[2][0]}, {planes[0][8], planes[1][8], planes[2][8]}}, near);
+      tables.build(near, decay, planes);
+      for (int i = 0; i < kBrickCells; ++i) {
+        for (int j = 0; j < kBrickCells; ++j) {
+          for (int k = 0; k < kBrickCells; ++k) {
+            const bool inside = exact.psi({planes[0][i], planes[1][j], planes[2][k]}) >= 0.0L;
+            const Side side = tables.corner(i, j, k);
+            ++corners;
+            known += side != Side::kUnknown;
+            if (side != Side::kUnknown) REQUIRE((side == Side::kInside) == inside);
+            bool is_crossed = false;
+            for (const Vec3& p : grid_points(cell_of(planes, i, j, k), 3)) {
+              is_crossed = is_crossed || (exact.psi(p) >= 0.0L) != inside;
+            }
+            if (is_crossed) REQUIRE(tables.may_cross(i, j, k));
+            crossed += is_crossed;
+            dropped += !tables.may_cross(i, j, k);
+          }
+        }
+      }
+    }
+  }
+  CHECK(crossed > 500);
+  CHECK(dropped > 3 * crossed);
+  CHECK(known > corners * 3 / 4);
+}
+
+TEST_CASE("a brick near atoms of any number: blocks of atoms add up") {
+  Random random(47);
+  const std::vector<Atom> atoms = random_cloud(random, {1500, 6.0, 0.2, 0.6, 0.0});
+  const GaussianField field(atoms, 0.6, 20.0);
+  const ExactField exact(atoms, 0.6, 20.0);
+  const auto planes = planes_of({-4.1, -3.9, -4.0}, 1.0);
+  NearAtoms near;
+  field.collect_near({{planes[0][0], planes[1][0], planes[2][0]}, {planes[0][8], planes[1][8], planes[2][8]}}, near);
+  REQUIRE(near.size() > 1000);
+  BrickTables tables;
+  tables.build(near, 0.6, planes);
+  for (int i = 0; i <= kBrickCells; ++i) {
+    const bool inside = exact.psi({planes[0][i], planes[1][i], planes[2][8 - i]}) >= 0.0L;
+    CHECK(tables.corner(i, i, 8 - i) == (inside ? Side::kInside : Side::kOutside));
+  }
+}
