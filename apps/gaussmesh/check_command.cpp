@@ -1,13 +1,8 @@
 #include "check_command.h"
 
-#include <charconv>
-#include <cmath>
-#include <iostream>
-
 #include "check_report.h"
-#include "gaussmesh/read_atoms.h"
 #include "gaussmesh/read_mesh.h"
-#include "gaussmesh/write_mesh.h"
+#include "report_parts.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -15,26 +10,24 @@ namespace {
 constexpr int kGood = 0;
 constexpr int kCheckFailed = 5;
 
-/// CLI11's own PositiveNumber answers with a bound of 309 digits.
-std::string refuse_unless_positive(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  if (is_number && std::isfinite(value) && value > 0.0) return {};
-  return "expected a number > 0, got '" + text + "'";
-}
+/// A: with 250 pairs nearer than this, TABI-PB's GMRES did not converge.
+constexpr double kSolverSeparation = 0.05;
 
 CheckFindings find_all(const CheckOptions& options) {
   const TriangleMesh mesh = read_mesh(options.mesh).mesh;
   CheckFindings found;
   found.name = options.mesh;
   found.mesh = check_mesh(mesh);
+  const bool is_measurable = found.mesh.bad_indices == 0 && found.mesh.bad_coordinates == 0;
+  found.separation = options.min_separation.value_or(kSolverSeparation);
+  found.separation_is_required = options.min_separation.has_value();
+  if (is_measurable) found.near = find_near_vertices(mesh, found.separation);
   if (!options.molecule) return found;
-  const AtomFile input = read_atoms(*options.molecule);
-  for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
+  const std::vector<Atom> atoms = read_molecule(*options.molecule);
   found.tolerance = options.tolerance;
-  if (found.mesh.bad_indices == 0 && found.mesh.bad_coordinates == 0)
-    found.distance = distance_to_surface(mesh, input.atoms, options.decay, options.isovalue);
+  if (!is_measurable) return found;
+  found.distance = distance_to_surface(mesh, atoms, options.decay, options.isovalue);
+  found.charges_outside = find_charges_outside(mesh, found.mesh, atoms);
   return found;
 }
 
@@ -42,8 +35,10 @@ CheckFindings find_all(const CheckOptions& options) {
 
 CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
   CLI::App* command = program.add_subcommand("check", "judge a mesh by its triangles alone, exactly");
-  const CLI::Validator positive(refuse_unless_positive, "", "positive");
-  command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads")->type_name("MESH")->required();
+  const CLI::Validator positive = positive_number();
+  command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads")
+      ->type_name("MESH")
+      ->required();
   CLI::Option* molecule =
       command->add_option("molecule", options.molecule, "PQR or XYZR file that it should be the surface of")
           ->type_name("MOL");
@@ -61,19 +56,22 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
       ->check(positive)
       ->capture_default_str()
       ->needs(molecule);
-  command->add_option("--json", options.json, "write what is found as JSON; -: to the terminal, and nothing else")
-      ->type_name("FILE");
+  command
+      ->add_option("--min-separation", options.min_separation,
+                   "least distance of any two vertices (A); else pairs nearer than 0.05 are only told")
+      ->type_name("S")
+      ->check(positive);
+  add_json_option(*command, options.json);
   command->footer(
-      "Exit codes: 0 the mesh is closed, oriented, embedded and right side out, and its vertices are on the\n"
-      "surface if there is a molecule; 5 it is not; 2 wrong use; 3 bad input");
+      "Exit codes: 0 the mesh is closed, oriented, embedded and right side out, its vertices are as far apart as\n"
+      "asked for, and if there is a molecule they are on its surface and its charges inside; 5 it is not; 2 wrong\n"
+      "use; 3 bad input");
   return command;
 }
 
 int run_check(const CheckOptions& options) {
   const CheckFindings found = find_all(options);
-  const bool json_to_terminal = options.json == "-";
-  if (options.json && !json_to_terminal) write_text(findings_json(found), *options.json);
-  std::cout << (json_to_terminal ? findings_json(found) : findings_text(found)) << std::flush;
+  put_report(findings_text(found), findings_json(found), options.json);
   return found.is_good() ? kGood : kCheckFailed;
 }
 

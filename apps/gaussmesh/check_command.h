@@ -9,12 +9,13 @@ namespace gaussmesh::app {
 
 /// What the command line asks of the check.
 struct CheckOptions {
-  std::string mesh;                     ///< OFF file
-  std::optional<std::string> molecule;  ///< PQR or XYZR file: measure the distance to its surface, too
-  double decay = 0.0;                   ///< d of the molecule's Gaussians, 1/A^2
-  double isovalue = 0.0;                ///< c of its surface
-  double tolerance = 1e-6;              ///< largest distance (A) that a vertex may have from it
-  std::optional<std::string> json;      ///< write JSON here; "-": to the terminal, in place of the report
+  std::string mesh;                      ///< OFF file
+  std::optional<std::string> molecule;   ///< PQR or XYZR file: measure the distance to its surface, too
+  double decay = 0.0;                    ///< d of the molecule's Gaussians, 1/A^2
+  double isovalue = 0.0;                 ///< c of its surface
+  double tolerance = 1e-6;               ///< largest distance (A) that a vertex may have from it
+  std::optional<double> min_separation;  ///< least distance (A) of any two vertices
+  std::optional<std::string> json;       ///< write JSON here; "-": to the terminal, in place of the report
 };
 
 /// Adds the sub-command to the program; parsing fills `options`, which must outlive it. @return the sub-command
@@ -22,8 +23,9 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options);
 
 /// Reads the mesh, judges it and says what was found.
 ///
-/// @return the exit code: 0 if the mesh is fit for a solver and, with a molecule, all its vertices are within the
-///         tolerance of the surface; else 5
+/// @return the exit code: 0 if the mesh is fit for a solver, its vertices are apart as asked for and, with a
+/// molecule, within the
+///         tolerance of the surface, and all charges are inside; else 5
 /// @throws InputError, OptionError
 int run_check(const CheckOptions& options);
 

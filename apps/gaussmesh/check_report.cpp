@@ -1,15 +1,12 @@
 #include "check_report.h"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "report_parts.h"
 
 namespace gaussmesh::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// One kind of defect: how the report and JSON name it.
 struct Defect {
@@ -18,58 +15,50 @@ struct Defect {
   std::size_t count;
 };
 
-std::vector<Defect> defects_of(const MeshCheck& mesh) {
-  return {{"triangles that name a missing vertex", "bad_indices", mesh.bad_indices},
-          {"vertices without usable coordinates", "bad_coordinates", mesh.bad_coordinates},
-          {"boundary edges, in one triangle only", "boundary_edges", mesh.boundary_edges},
-          {"non-manifold edges, in more than two", "nonmanifold_edges", mesh.nonmanifold_edges},
-          {"edges whose triangles turn against each other", "misoriented_edges", mesh.misoriented_edges},
-          {"vertices whose triangles are not one closed fan", "nonmanifold_vertices", mesh.nonmanifold_vertices},
-          {"vertices in no triangle", "isolated_vertices", mesh.isolated_vertices},
-          {"vertices at the place of another", "duplicate_vertices", mesh.duplicate_vertices},
-          {"triangles of zero area", "degenerate_triangles", mesh.degenerate_triangles},
-          {"pairs of triangles that cross or touch", "intersecting_pairs", mesh.intersecting_pairs},
-          {"components turned inside out", "inverted_components", mesh.inverted_components}};
+/// Components that are turned the wrong way: outsides (odd = 0), or cavities (odd = 1).
+std::size_t count_inverted(const MeshCheck& mesh, std::size_t odd) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.components.begin(), mesh.components.end(),
+                    [&](const MeshComponent& c) { return c.inverted && c.depth % 2 == odd; }));
 }
 
-/// printf into a string; a line is never longer than the buffer.
-[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
-  char buffer[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(buffer, sizeof buffer, format, arguments);
-  va_end(arguments);
-  return buffer;
+std::vector<Defect> defects_of(const CheckFindings& found) {
+  const MeshCheck& mesh = found.mesh;
+  std::vector<Defect> defects{
+      {"triangles that name a missing vertex", "bad_indices", mesh.bad_indices},
+      {"vertices without usable coordinates", "bad_coordinates", mesh.bad_coordinates},
+      {"boundary edges, in one triangle only", "boundary_edges", mesh.boundary_edges},
+      {"non-manifold edges, in more than two", "nonmanifold_edges", mesh.nonmanifold_edges},
+      {"edges whose triangles turn against each other", "misoriented_edges", mesh.misoriented_edges},
+      {"vertices whose triangles are not one closed fan", "nonmanifold_vertices", mesh.nonmanifold_vertices},
+      {"vertices in no triangle", "isolated_vertices", mesh.isolated_vertices},
+      {"vertices at the place of another", "duplicate_vertices", mesh.duplicate_vertices},
+      {"triangles of zero area", "degenerate_triangles", mesh.degenerate_triangles},
+      {"pairs of triangles that cross or touch", "intersecting_pairs", mesh.intersecting_pairs},
+      {"outer surfaces whose faces turn inwards", "inward_surfaces", count_inverted(mesh, 0)},
+      {"cavities whose faces turn outwards", "outward_cavities", count_inverted(mesh, 1)}};
+  if (found.charges_outside)
+    defects.push_back({"charges outside the mesh", "charges_outside", found.charges_outside->size()});
+  if (found.near && found.separation_is_required)
+    defects.push_back({"pairs of vertices too near to each other", "near_pairs", found.near->pairs});
+  return defects;
 }
 
-const char* kind_of(const MeshComponent& component) {
-  if (!component.closed) return "not closed";
-  return component.depth % 2 == 0 ? "outside" : "cavity";
-}
-
-std::string defects_text(const MeshCheck& mesh) {
+std::string defects_text(const CheckFindings& found) {
+  const MeshCheck& mesh = found.mesh;
   constexpr std::size_t kMostExamples = 3;
   std::string text = "Defects\n";
-  for (const Defect& defect : defects_of(mesh)) text += line("  %-49s %11zu\n", defect.text, defect.count);
+  for (const Defect& defect : defects_of(found)) text += line("  %-49s %11zu\n", defect.text, defect.count);
   std::string pairs;
   for (std::size_t i = 0; i < std::min(kMostExamples, mesh.intersecting_examples.size()); ++i)
     pairs +=
         line("%s%u and %u", i == 0 ? "" : ", ", mesh.intersecting_examples[i][0], mesh.intersecting_examples[i][1]);
-  return pairs.empty() ? text : text + "  triangles that cross or touch, counted from 0: " + pairs + "\n";
-}
-
-std::string components_text(const MeshCheck& mesh) {
-  constexpr std::size_t kMost = 20;
-  std::string text = line("Components: %zu, Euler number %lld, area %.8g A^2, volume %.8g A^3\n",
-                          mesh.components.size(), static_cast<long long>(mesh.chi), mesh.area, mesh.volume);
-  text += "  kind         triangles    vertices   handles        area/A^2      volume/A^3\n";
-  for (std::size_t i = 0; i < std::min(kMost, mesh.components.size()); ++i) {
-    const MeshComponent& c = mesh.components[i];
-    text += line("  %-10s %11zu %11zu %9lld %15.8g %15.8g%s\n", kind_of(c), c.triangles, c.vertices,
-                 static_cast<long long>(c.genus), c.area, c.volume, c.inverted ? "  inside out" : "");
-  }
-  if (mesh.components.size() > kMost) text += line("  and %zu smaller ones\n", mesh.components.size() - kMost);
-  return text;
+  if (!pairs.empty()) text += "  triangles that cross or touch, counted from 0: " + pairs + "\n";
+  std::string charges;
+  if (found.charges_outside)
+    for (std::size_t i = 0; i < std::min(kMostExamples, found.charges_outside->size()); ++i)
+      charges += line("%s%u", i == 0 ? "" : ", ", (*found.charges_outside)[i]);
+  return charges.empty() ? text : text + "  atoms of charges outside, counted from 0: " + charges + "\n";
 }
 
 std::string shape_text(const MeshCheck& mesh) {
@@ -80,6 +69,24 @@ std::string shape_text(const MeshCheck& mesh) {
          line("  shortest / longest edge, mean  %.4g\n", mesh.mean_edge_ratio) +
          line("  edges                          %.4g to %.4g A, mean %.4g A\n", mesh.min_edge, mesh.max_edge,
               mesh.mean_edge);
+}
+
+std::string near_text(const CheckFindings& found) {
+  constexpr std::size_t kMostExamples = 3;
+  if (!found.near) return "";
+  const NearVertices& near = *found.near;
+  std::string text =
+      line("Vertices nearer to each other than %.4g A: %zu pairs%s, %zu of them joined by an edge\n",
+           found.separation, near.pairs, near.pairs == kMostNearPairs ? " or more" : "", near.short_edges);
+  std::string pairs;
+  for (std::size_t i = 0; i < std::min(kMostExamples, near.examples.size()); ++i)
+    pairs += line("%s%u and %u", i == 0 ? "" : ", ", near.examples[i][0], near.examples[i][1]);
+  if (!pairs.empty()) text += "  counted from 0: " + pairs + "\n";
+  if (near.pairs != 0 && !found.separation_is_required)
+    text +=
+        "  WARNING: boundary-element solvers may not converge with elements so small; --min-separation asks for "
+        "none\n";
+  return text;
 }
 
 std::string distance_text(const CheckFindings& found) {
@@ -98,25 +105,10 @@ std::string verdict_text(const CheckFindings& found) {
   if (found.is_good())
     return "OK: fit for a solver" + std::string(found.tolerance ? ", and on the surface\n" : "\n");
   std::string reasons = found.mesh.triangles == 0 ? "; no triangle" : "";
-  for (const Defect& defect : defects_of(found.mesh))
+  for (const Defect& defect : defects_of(found))
     if (defect.count != 0) reasons += line("; %zu %s", defect.count, defect.text);
   if (!found.is_on_surface()) reasons += "; vertices are not on the surface";
   return "FAILED: " + reasons.substr(2) + "\n";
-}
-
-Json components_json(const MeshCheck& mesh) {
-  Json list = Json::array();
-  for (const MeshComponent& c : mesh.components)
-    list.push_back({{"kind", kind_of(c)},
-                    {"depth", c.depth},
-                    {"inverted", c.inverted},
-                    {"triangles", c.triangles},
-                    {"vertices", c.vertices},
-                    {"chi", c.chi},
-                    {"genus", c.genus},
-                    {"area_A2", c.area},
-                    {"volume_A3", c.volume}});
-  return list;
 }
 
 Json quality_json(const MeshCheck& mesh) {
@@ -130,6 +122,14 @@ Json quality_json(const MeshCheck& mesh) {
           {"max_edge_A", mesh.max_edge},
           {"triangles_by_edge_ratio", mesh.ratio_histogram},
           {"angles_by_10_deg", mesh.angle_histogram}};
+}
+
+Json near_json(const CheckFindings& found) {
+  if (!found.near) return nullptr;
+  return {{"separation_A", found.separation},
+          {"pairs", found.near->pairs},
+          {"short_edges", found.near->short_edges},
+          {"examples", found.near->examples}};
 }
 
 Json distance_json(const CheckFindings& found) {
@@ -147,13 +147,14 @@ Json distance_json(const CheckFindings& found) {
 
 std::string findings_text(const CheckFindings& found) {
   return found.name + line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
-         defects_text(found.mesh) + components_text(found.mesh) + shape_text(found.mesh) + distance_text(found) +
-         verdict_text(found);
+         defects_text(found) + components_text(found.mesh) + shape_text(found.mesh) + near_text(found) +
+         distance_text(found) + verdict_text(found);
 }
 
 std::string findings_json(const CheckFindings& found) {
   Json defects;
-  for (const Defect& defect : defects_of(found.mesh)) defects[defect.key] = defect.count;
+  for (const Defect& defect : defects_of(found)) defects[defect.key] = defect.count;
+  defects["inverted_components"] = found.mesh.inverted_components;
   const Json json = {{"mesh", found.name},
                      {"good", found.is_good()},
                      {"fit_for_solver", found.mesh.fit_for_solver()},
@@ -166,8 +167,10 @@ std::string findings_json(const CheckFindings& found) {
                      {"intersecting_examples", found.mesh.intersecting_examples},
                      {"components", components_json(found.mesh)},
                      {"quality", quality_json(found.mesh)},
+                     {"near_vertices", near_json(found)},
+                     {"charges_outside", found.charges_outside ? Json(*found.charges_outside) : Json()},
                      {"surface", distance_json(found)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gaussmesh::app

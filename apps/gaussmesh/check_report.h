@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gaussmesh/check_mesh.h"
+#include "gaussmesh/measure_mesh.h"
 
 namespace gaussmesh::app {
 
@@ -15,9 +17,15 @@ struct CheckFindings {
   std::optional<double> tolerance;  ///< of the vertices' distance (A); there if a molecule was given
   std::optional<SurfaceDistance>
       distance;  ///< from the molecule's surface; missing too where it cannot be measured
+  std::optional<std::vector<std::uint32_t>> charges_outside;  ///< atoms; likewise
+  double separation = 0.0;                                    ///< of the vertices (A)
+  bool separation_is_required = false;                        ///< nearer ones are a defect, and not only told
+  std::optional<NearVertices> near;  ///< nearer than that; missing where it cannot be measured
 
   bool is_on_surface() const { return !tolerance || (distance && distance->max_vertex_distance <= *tolerance); }
-  bool is_good() const { return mesh.fit_for_solver() && is_on_surface(); }
+  bool has_all_charges() const { return !charges_outside || charges_outside->empty(); }
+  bool is_separated() const { return !separation_is_required || (near && near->pairs == 0); }
+  bool is_good() const { return mesh.fit_for_solver() && is_on_surface() && has_all_charges() && is_separated(); }
 };
 
 /// A report for people. Its last line begins with `OK` if the mesh is good, else with `FAILED`.

@@ -5,10 +5,12 @@
 #include <iostream>
 
 #include "check_command.h"
+#include "compare_command.h"
 #include "convert_command.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/version.h"
 #include "manual.h"
+#include "measure_command.h"
 #include "mesh_command.h"
 #include "names.h"
 
@@ -113,6 +115,10 @@ int run(int argc, char** argv) {
   CLI::App* check_command = add_check_command(program, check);
   ConvertOptions convert;
   CLI::App* convert_command = add_convert_command(program, convert);
+  MeasureCommand measure;
+  CLI::App* measure_command = add_measure_command(program, measure);
+  CompareCommand compare;
+  CLI::App* compare_command = add_compare_command(program, compare);
   program.require_subcommand(0, 1);
   try {
     program.parse(argc, argv);
@@ -124,6 +130,8 @@ int run(int argc, char** argv) {
   if (!manual.empty()) return print_manual(program, manual);
   if (check_command->parsed()) return run_check(check);
   if (convert_command->parsed()) return run_convert(convert);
+  if (measure_command->parsed()) return run_measure(measure);
+  if (compare_command->parsed()) return run_compare(compare);
   return run_mesh(mesh);
 }
 

@@ -1,6 +1,7 @@
 #include "verify/atom_tree.h"
 
 #include <array>
+#include <cmath>
 
 #include "verify/morton_order.h"
 
@@ -56,6 +57,26 @@ AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const 
 
 std::uint32_t AtomTree::nearest(const Point& point) const {
   return order_[best_below(levels_.size(), 0, {point, point}, {}).atom];
+}
+
+/// The lesser of `least` and the smallest |point - x_i|^2 / r_i^2 in the group. It begins with the atom of the
+/// largest exponent, which is nearly always the one.
+double AtomTree::relative_distance_sq_below(std::size_t level, std::size_t index, const Point& point,
+                                            double least) const {
+  const Group group = group_at(level, index);
+  const double distance_sq = group.radius_sq - largest_exponent(group, {point, point});
+  if (!(group.radius_sq > 0.0) || distance_sq >= least * group.radius_sq) return least;
+  if (level == 0) return distance_sq / group.radius_sq;
+  const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
+  for (std::size_t child = index * kFanOut; child < end; ++child)
+    least = relative_distance_sq_below(level - 1, child, point, least);
+  return least;
+}
+
+double AtomTree::least_relative_distance(const Point& point) const {
+  const std::size_t likely = best_below(levels_.size(), 0, {point, point}, {}).atom;
+  const double first = relative_distance_sq_below(0, likely, point, std::numeric_limits<double>::infinity());
+  return std::sqrt(relative_distance_sq_below(levels_.size(), 0, point, first));
 }
 
 /// A lower bound of the largest exponent at any point of `place`: that of the atom which is largest at its middle.

@@ -27,6 +27,9 @@ class AtomTree {
   /// several one, always the same.
   std::uint32_t nearest(const Point& point) const;
 
+  /// The smallest |point - x_i| / r_i of all atoms, of which those of radius 0 do not count; infinite if none does.
+  double least_relative_distance(const Point& point) const;
+
   /// Calls visit(atom) for every atom whose exponent is, at some point of `place`, less than `range` below the
   /// largest exponent at that point; and for some others.
   template <class Visit>
@@ -79,6 +82,7 @@ class AtomTree {
 
   Best best_below(std::size_t level, std::size_t index, const Box& place, Best best) const;
   double least_largest_exponent(const Box& place) const;
+  double relative_distance_sq_below(std::size_t level, std::size_t index, const Point& point, double least) const;
 
   /// Level 0 is the atoms themselves, level k is levels_[k - 1].
   Group group_at(std::size_t level, std::size_t index) const {

@@ -1,5 +1,6 @@
 #include "verify/triangle_tree.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -44,6 +45,20 @@ void TriangleTree::find_meeting_blocks(const BlockBoxes& boxes, const Box& query
                         static_cast<float>(query.high[2])};
   static_assert(sizeof boxes == 6 * kPatchBlocks * sizeof(float));
   compare_boxes(boxes.low[0].data(), low, high, answers.data());
+}
+
+void TriangleTree::find_distances_to_blocks(const BlockBoxes& boxes, const Point& point,
+                                            std::array<double, kPatchBlocks>& distances_sq) {
+  constexpr double kRounded = 0x1p-23;  // of a coordinate; half of that and what comes out of it by rounding here
+  distances_sq.fill(0.0);
+  for (int k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < kPatchBlocks; ++i) {
+      const double low = boxes.low[k][i], high = boxes.high[k][i];
+      const double below = low - std::abs(low) * kRounded - point[k];
+      const double above = point[k] - high - std::abs(high) * kRounded;
+      const double gap = std::max(0.0, std::max(below, above));
+      distances_sq[i] += gap * gap;
+    }
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {

@@ -43,6 +43,13 @@ class TriangleTree {
       visit_below(levels_.size() - 1, node, query, first, visit);
   }
 
+  /// Calls visit(numbers) for every block that may have a point whose distance from `point` squared is below
+  /// `bound_sq`, which visit may lower; nearer ones mostly first.
+  template <class Visit>
+  void for_each_block_nearer(const Point& point, const double& bound_sq, const Visit& visit) const {
+    if (!order_.empty()) approach_children(levels_.size(), 0, levels_.back().size(), point, bound_sq, visit);
+  }
+
  private:
   static constexpr std::size_t kFanOut = 4;  // boxes under one of the next level
 
@@ -79,6 +86,56 @@ class TriangleTree {
     for (std::size_t i = first > begin ? first - begin : 0; i < kPatchBlocks; ++i)
       if (answers[i] != 0) visit(blocks(begin + i, begin + i + 1));
   }
+
+  /// A node on the way to a point.
+  struct Step {
+    double distance_sq = 0.0;
+    std::size_t node = 0;
+  };
+
+  static double distance_sq_to_box(const Point& point, const Box& box) {
+    double distance_sq = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double gap = std::max({0.0, box.low[k] - point[k], point[k] - box.high[k]});
+      distance_sq += gap * gap;
+    }
+    return distance_sq;
+  }
+
+  /// Goes to the nodes begin .. end - 1 of the level below `level`, at most kFanOut of them, nearest first.
+  template <class Visit>
+  void approach_children(std::size_t level, std::size_t begin, std::size_t end, const Point& point,
+                         const double& bound_sq, const Visit& visit) const {
+    std::array<Step, kFanOut> steps;
+    std::size_t count = 0;
+    for (std::size_t node = begin; node < end; ++node)
+      steps[count++] = {distance_sq_to_box(point, levels_[level - 1][node]), node};
+    std::sort(steps.begin(), steps.begin() + count,
+              [](const Step& a, const Step& b) { return a.distance_sq < b.distance_sq; });
+    for (std::size_t i = 0; i < count && steps[i].distance_sq < bound_sq; ++i) {
+      const std::size_t node = steps[i].node;
+      if (level == 1) {
+        approach_blocks(node, point, bound_sq, visit);
+      } else {
+        const std::size_t children_end = std::min((node + 1) * kFanOut, levels_[level - 2].size());
+        approach_children(level - 1, node * kFanOut, children_end, point, bound_sq, visit);
+      }
+    }
+  }
+
+  template <class Visit>
+  void approach_blocks(std::size_t patch, const Point& point, const double& bound_sq, const Visit& visit) const {
+    std::array<double, kPatchBlocks> distances_sq;
+    find_distances_to_blocks(block_boxes_[patch], point, distances_sq);
+    const std::size_t begin = patch * kPatchBlocks;
+    const std::size_t count = std::min(kPatchBlocks, block_count() - begin);
+    for (std::size_t i = 0; i < count; ++i)
+      if (distances_sq[i] < bound_sq) visit(blocks(begin + i, begin + i + 1));
+  }
+
+  /// Squares of distances from the boxes, or a little less: what rounding took from the boxes is taken off.
+  static void find_distances_to_blocks(const BlockBoxes& boxes, const Point& point,
+                                       std::array<double, kPatchBlocks>& distances_sq);
 
   std::vector<std::uint32_t> order_;      // triangle numbers along the curve
   std::vector<BlockBoxes> block_boxes_;   // of each patch

@@ -470,6 +470,108 @@ class Check(CliTest):
         self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("methanol"), "--d", 0.6, "--c", 1.6)
 
 
+class CheckForSolvers(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.expect(0, self.molecule("dmso"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
+
+    def findings(self, *arguments, code=0):
+        return json.loads(self.expect(code, "check", self.mesh, *arguments, "--json", "-").stdout)
+
+    def test_charges_outside_are_named(self):
+        atoms = self.molecule("dmso").read_text()
+        self.assertEqual(self.findings(self.molecule("dmso"), "--d", 0.6, "--c", 1.7)["charges_outside"], [])
+        stray = "HETATM   99  CL  ION     9      90.000   0.000   0.000 -1.000  0.00\n"
+        molecule = self.write("stray.pqr", stray + atoms)
+        said = self.expect(CHECK_FAILED, "check", self.mesh, molecule, "--d", 0.6, "--c", 1.7).stdout
+        self.assertIn("1 charges outside the mesh", said.splitlines()[-1])
+        self.assertEqual(self.findings(molecule, "--d", 0.6, "--c", 1.7, code=CHECK_FAILED)["charges_outside"], [0])
+
+    def test_vertices_that_are_too_near(self):
+        near = self.findings("--min-separation", 1e-9)["near_vertices"]
+        self.assertEqual((near["separation_A"], near["pairs"], near["short_edges"]), (1e-9, 0, 0))
+        failed = self.expect(CHECK_FAILED, "check", self.mesh, "--min-separation", 0.5)
+        self.assertRegex(failed.stdout.splitlines()[-1], r"FAILED: [0-9]+ pairs of vertices too near")
+        self.expect(WRONG_USE, "check", self.mesh, "--min-separation", 0)
+
+    def test_a_cavity_turned_the_wrong_way(self):
+        def sphere(size, order):
+            corners = [(size, 0, 0), (-size, 0, 0), (0, size, 0), (0, -size, 0), (0, 0, size), (0, 0, -size)]
+            faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+            return corners, [tuple(face[i] for i in order) for face in faces]
+
+        def mesh(*parts):
+            corners, faces = [], []
+            for part_corners, part_faces in parts:
+                faces += [[v + len(corners) for v in face] for face in part_faces]
+                corners += part_corners
+            rows = [" ".join(map(str, p)) for p in corners] + [" ".join(map(str, [3, *f])) for f in faces]
+            return self.write("nested.off", "\n".join(["OFF", f"{len(corners)} {len(faces)} 0", *rows, ""]))
+
+        out, inwards = (0, 1, 2), (0, 2, 1)
+        self.expect(0, "check", mesh(sphere(5, out), sphere(1, inwards)))
+        cavity = self.expect(CHECK_FAILED, "check", mesh(sphere(5, out), sphere(1, out))).stdout
+        self.assertIn("1 cavities whose faces turn outwards", cavity.splitlines()[-1])
+        outside = self.expect(CHECK_FAILED, "check", mesh(sphere(5, inwards), sphere(1, inwards))).stdout
+        self.assertIn("1 outer surfaces whose faces turn inwards", outside.splitlines()[-1])
+
+
+class Measure(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.atom = self.write("atom.pqr", "ATOM 1 C X 1 1.0 2.0 3.0 0.5 2.0\n")
+        self.expect(0, self.atom, "--d", 0.6, "--c", 1.7, "--spacing", 0.2, "-o", self.mesh)
+        self.radius = (2.0**2 - math.log(1.7) / 0.6) ** 0.5
+
+    def test_a_sphere(self):
+        said = json.loads(self.expect(0, "measure", self.mesh, self.atom, "--json", "-").stdout)
+        self.assertAlmostEqual(said["area_A2"], 4 * math.pi * self.radius**2, delta=0.3)
+        self.assertAlmostEqual(said["volume_A3"], 4 / 3 * math.pi * self.radius**3, delta=0.3)
+        self.assertEqual([c["kind"] for c in said["components"]], ["outside"])
+        self.assertAlmostEqual(said["mean_relative_vdw_distance"], self.radius / 2.0 - 1, places=6)
+        self.assertAlmostEqual(said["atom_areas_A2"][0], said["area_A2"], places=6)
+
+    def test_areas_in_a_file(self):
+        areas = self.folder / "areas.txt"
+        text = self.expect(0, "measure", self.mesh, self.atom, "--atom-areas", areas).stdout
+        self.assertIn("Atoms with a share of the area: 1 of 1", text)
+        number, area = areas.read_text().split()
+        self.assertEqual(number, "1")
+        self.assertAlmostEqual(float(area), 4 * math.pi * self.radius**2, delta=0.3)
+        self.expect(WRONG_USE, "measure", self.mesh, "--atom-areas", areas)
+
+    def test_without_a_molecule(self):
+        self.assertNotIn("van der Waals", self.expect(0, "measure", self.mesh).stdout)
+
+    def test_no_mesh_to_measure(self):
+        self.expect(BAD_INPUT, "measure", self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"))
+
+
+class Compare(CliTest):
+    def sphere(self, name, radius):
+        molecule = self.write(f"{name}.pqr", f"ATOM 1 C X 1 0.0 0.0 0.0 0.0 {radius}\n")
+        self.expect(0, molecule, "--d", 0.6, "--c", 1.0, "--spacing", 0.2, "-o", self.folder / f"{name}.off")
+        return self.folder / f"{name}.off"
+
+    def test_two_spheres(self):
+        small, large = self.sphere("small", 1.5), self.sphere("large", 1.7)
+        said = json.loads(self.expect(0, "compare", small, large, "--density", 100, "--json", "-").stdout)
+        self.assertAlmostEqual(said["hausdorff_A"], 0.2, delta=0.01)
+        self.assertGreaterEqual(said["hausdorff_bound_A"], said["hausdorff_A"])
+        for side in ["first_to_second", "second_to_first"]:
+            self.assertAlmostEqual(said[side]["mean_A"], 0.2, delta=0.01)
+            self.assertGreaterEqual(said[side]["rms_A"], said[side]["mean_A"])
+        self.assertIn("Hausdorff distance: 0.", self.expect(0, "compare", small, large).stdout)
+        same = json.loads(self.expect(0, "compare", small, small, "--json", "-").stdout)
+        self.assertLess(same["hausdorff_A"], 1e-12)
+
+    def test_wrong_use(self):
+        mesh = self.sphere("small", 1.5)
+        self.expect(WRONG_USE, "compare", mesh)
+        self.expect(WRONG_USE, "compare", mesh, mesh, "--density", 0)
+        self.expect(BAD_INPUT, "compare", mesh, self.write("empty.off", "OFF\n0 0 0\n"))
+
+
 class Help(CliTest):
     """Help texts are golden files, compared word by word: line breaks are the argument parser's business."""
 
@@ -489,6 +591,12 @@ class Help(CliTest):
 
     def test_convert(self):
         self.same_as_golden("help_convert", "convert", "--help")
+
+    def test_measure(self):
+        self.same_as_golden("help_measure", "measure", "--help")
+
+    def test_compare(self):
+        self.same_as_golden("help_compare", "compare", "--help")
 
     def test_version(self):
         self.assertRegex(self.expect(0, "--version").stdout, re.compile(r"^(gaussmesh )?\d+\.\d+\.\d+\n$"))

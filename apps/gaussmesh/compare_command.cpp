@@ -1,0 +1,64 @@
+#include "compare_command.h"
+
+#include "gaussmesh/read_mesh.h"
+#include "report_parts.h"
+
+namespace gaussmesh::app {
+namespace {
+
+std::string side_text(const char* name, const OneSidedDistance& d) {
+  return line("  %-16s %12.5g %12.5g %12.5g %12.5g %12zu\n", name, d.max, d.max_bound, d.mean, d.rms, d.samples) +
+         line("    farthest at (%.6g, %.6g, %.6g)\n", d.farthest[0], d.farthest[1], d.farthest[2]);
+}
+
+Json side_json(const OneSidedDistance& d) {
+  return {{"max_A", d.max}, {"max_bound_A", d.max_bound}, {"mean_A", d.mean},
+          {"rms_A", d.rms}, {"farthest_A", d.farthest},   {"samples", d.samples}};
+}
+
+std::string comparison_text(const CompareCommand& command, const MeshComparison& found) {
+  return "A: " + command.first + "\nB: " + command.second + "\n" +
+         line("Distances (A), %.4g samples per A^2\n", command.options.samples_per_A2) +
+         "                            max    at most         mean          rms      samples\n" +
+         side_text("from A to B", found.first_to_second) + side_text("from B to A", found.second_to_first) +
+         line("Hausdorff distance: %.5g A; no more than %.5g A\n", found.hausdorff(), found.hausdorff_bound());
+}
+
+std::string comparison_json(const CompareCommand& command, const MeshComparison& found) {
+  return json_text({{"first", command.first},
+                    {"second", command.second},
+                    {"samples_per_A2", command.options.samples_per_A2},
+                    {"first_to_second", side_json(found.first_to_second)},
+                    {"second_to_first", side_json(found.second_to_first)},
+                    {"hausdorff_A", found.hausdorff()},
+                    {"hausdorff_bound_A", found.hausdorff_bound()}});
+}
+
+}  // namespace
+
+CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
+  CLI::App* app = program.add_subcommand("compare", "measure how far two meshes are from each other");
+  app->add_option("A", command.first, "mesh, in any format that convert reads")->type_name("MESH")->required();
+  app->add_option("B", command.second, "the other mesh")->type_name("MESH")->required();
+  app->add_option("--density", command.options.samples_per_A2, "samples per A^2 of the surfaces")
+      ->type_name("N")
+      ->check(positive_number())
+      ->capture_default_str();
+  add_json_option(*app, command.json);
+  app->footer(
+      "For each direction: the largest distance of a sample, what no point of the surface exceeds, and the mean "
+      "and\n"
+      "root mean square over the surface. Every distance is that to the nearest point of the nearest triangle.\n\n"
+      "Example:  gaussmesh compare coarse.off fine.off --density 100");
+  return app;
+}
+
+int run_compare(const CompareCommand& command) {
+  const TriangleMesh first = read_mesh(command.first).mesh;
+  const TriangleMesh second = read_mesh(command.second).mesh;
+  const MeshComparison found = compare_meshes(first, second, command.options);
+  put_report(comparison_text(command, found), comparison_json(command, found), command.json);
+  return 0;
+}
+
+}  // namespace gaussmesh::app

@@ -1,0 +1,100 @@
+#include "measure_command.h"
+
+#include <algorithm>
+
+#include "gaussmesh/check_mesh.h"
+#include "gaussmesh/error.h"
+#include "gaussmesh/measure_mesh.h"
+#include "gaussmesh/read_mesh.h"
+#include "gaussmesh/write_mesh.h"
+#include "report_parts.h"
+
+namespace gaussmesh::app {
+namespace {
+
+struct Measured {
+  std::string name;
+  MeshCheck mesh;
+  std::optional<AtomMeasures> by_atoms;  ///< there if a molecule was given
+};
+
+bool all_are_closed(const MeshCheck& mesh) {
+  return std::all_of(mesh.components.begin(), mesh.components.end(),
+                     [](const MeshComponent& c) { return c.closed; });
+}
+
+std::string measured_text(const Measured& found) {
+  std::string text = found.name +
+                     line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
+                     components_text(found.mesh);
+  if (!all_are_closed(found.mesh)) text += "  WARNING: the volume of what is not closed says nothing\n";
+  if (!found.by_atoms) return text;
+  const AtomMeasures& atoms = *found.by_atoms;
+  const auto exposed =
+      std::count_if(atoms.areas.begin(), atoms.areas.end(), [](double area) { return area > 0.0; });
+  text += line("Atoms with a share of the area: %td of %zu\n", exposed, atoms.areas.size());
+  return text + (atoms.vdw_distance
+                     ? line("Mean relative distance from the van der Waals spheres: %.4f\n", *atoms.vdw_distance)
+                     : "Mean relative distance from the van der Waals spheres: none, no radius is above 0\n");
+}
+
+std::string measured_json(const Measured& found) {
+  Json json = {{"mesh", found.name},
+               {"vertices", found.mesh.vertices},
+               {"triangles", found.mesh.triangles},
+               {"closed", all_are_closed(found.mesh)},
+               {"chi", found.mesh.chi},
+               {"area_A2", found.mesh.area},
+               {"volume_A3", found.mesh.volume},
+               {"components", components_json(found.mesh)}};
+  if (found.by_atoms) {
+    const auto& distance = found.by_atoms->vdw_distance;
+    json["mean_relative_vdw_distance"] = distance ? Json(*distance) : Json();
+    json["atom_areas_A2"] = found.by_atoms->areas;
+  }
+  return json_text(json);
+}
+
+/// One line for each atom: its number, counted from 1 in the order of the file, and its area.
+std::string areas_text(const std::vector<double>& areas) {
+  std::string text;
+  for (std::size_t i = 0; i < areas.size(); ++i) text += line("%zu %.6f\n", i + 1, areas[i]);
+  return text;
+}
+
+}  // namespace
+
+CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
+  CLI::App* app = program.add_subcommand("measure", "area and volume of a mesh, in all and at each atom");
+  app->add_option("mesh", command.mesh, "mesh, in any format that convert reads")->type_name("MESH")->required();
+  CLI::Option* molecule =
+      app->add_option("molecule", command.molecule, "PQR or XYZR file of its molecule")->type_name("MOL");
+  app->add_option("--atom-areas", command.atom_areas,
+                  "write a line for each atom: its number, counted from 1, and the area nearest to it (A^2)")
+      ->type_name("FILE")
+      ->needs(molecule);
+  add_json_option(*app, command.json);
+  app->footer(
+      "Area and volume are given for each component too; a cavity's volume is negative. With a molecule: the area "
+      "that\n"
+      "is nearest to each atom, and the mean over the vertices of the distance from the nearest atom's centre over "
+      "its\n"
+      "radius, less 1; atoms of radius 0 do not count in that.\n\n"
+      "Example:  gaussmesh measure out.off in.pqr --atom-areas areas.txt");
+  return app;
+}
+
+int run_measure(const MeasureCommand& command) {
+  const TriangleMesh mesh = read_mesh(command.mesh).mesh;
+  Measured found{command.mesh, check_mesh(mesh), std::nullopt};
+  if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)
+    throw InputError(command.mesh + ": expected a mesh to measure, got " + std::to_string(found.mesh.bad_indices) +
+                     " triangles that name a missing vertex and " + std::to_string(found.mesh.bad_coordinates) +
+                     " vertices without usable coordinates");
+  if (command.molecule) found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule));
+  if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);
+  put_report(measured_text(found), measured_json(found), command.json);
+  return 0;
+}
+
+}  // namespace gaussmesh::app

@@ -1,0 +1,90 @@
+#include "report_parts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <iostream>
+
+#include "gaussmesh/read_atoms.h"
+#include "gaussmesh/write_mesh.h"
+
+namespace gaussmesh::app {
+namespace {
+
+const char* kind_of(const MeshComponent& component) {
+  if (!component.closed) return "not closed";
+  return component.depth % 2 == 0 ? "outside" : "cavity";
+}
+
+std::string refuse_unless_positive(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  if (is_number && std::isfinite(value) && value > 0.0) return {};
+  return "expected a number > 0, got '" + text + "'";
+}
+
+}  // namespace
+
+std::string line(const char* format, ...) {
+  char buffer[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  return buffer;
+}
+
+std::string components_text(const MeshCheck& mesh) {
+  constexpr std::size_t kMost = 20;
+  std::string text = line("Components: %zu, Euler number %lld, area %.8g A^2, volume %.8g A^3\n",
+                          mesh.components.size(), static_cast<long long>(mesh.chi), mesh.area, mesh.volume);
+  text += "  kind         triangles    vertices   handles        area/A^2      volume/A^3\n";
+  for (std::size_t i = 0; i < std::min(kMost, mesh.components.size()); ++i) {
+    const MeshComponent& c = mesh.components[i];
+    text += line("  %-10s %11zu %11zu %9lld %15.8g %15.8g%s\n", kind_of(c), c.triangles, c.vertices,
+                 static_cast<long long>(c.genus), c.area, c.volume, c.inverted ? "  inside out" : "");
+  }
+  if (mesh.components.size() > kMost) text += line("  and %zu smaller ones\n", mesh.components.size() - kMost);
+  return text;
+}
+
+Json components_json(const MeshCheck& mesh) {
+  Json list = Json::array();
+  for (const MeshComponent& c : mesh.components)
+    list.push_back({{"kind", kind_of(c)},
+                    {"depth", c.depth},
+                    {"inverted", c.inverted},
+                    {"triangles", c.triangles},
+                    {"vertices", c.vertices},
+                    {"chi", c.chi},
+                    {"genus", c.genus},
+                    {"area_A2", c.area},
+                    {"volume_A3", c.volume}});
+  return list;
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file) {
+  const bool json_to_terminal = json_file == "-";
+  if (json_file && !json_to_terminal) write_text(json, *json_file);
+  std::cout << (json_to_terminal ? json : text) << std::flush;
+}
+
+void add_json_option(CLI::App& command, std::optional<std::string>& file) {
+  command.add_option("--json", file, "write what is found as JSON; -: to the terminal, and nothing else")
+      ->type_name("FILE");
+}
+
+CLI::Validator positive_number() { return {refuse_unless_positive, "", "positive"}; }
+
+std::vector<Atom> read_molecule(const std::string& file) {
+  const AtomFile input = read_atoms(file);
+  for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
+  return input.atoms;
+}
+
+}  // namespace gaussmesh::app

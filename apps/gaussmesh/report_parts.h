@@ -1,0 +1,38 @@
+// What the reports of several commands have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "gaussmesh/atom.h"
+#include "gaussmesh/check_mesh.h"
+
+namespace gaussmesh::app {
+
+using Json = nlohmann::ordered_json;
+
+/// printf into a string; a line is never longer than the buffer, 256 characters.
+[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...);
+
+/// A table of the components, and their sums.
+std::string components_text(const MeshCheck& mesh);
+Json components_json(const MeshCheck& mesh);
+
+/// JSON as it is written, with a newline at the end; names that are not UTF-8 are made so.
+std::string json_text(const Json& json);
+
+/// Prints the text, and writes the JSON if a file is named: "-" puts the JSON on the terminal in place of the text.
+void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file);
+
+/// The option that names the file.
+void add_json_option(CLI::App& command, std::optional<std::string>& file);
+
+/// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
+CLI::Validator positive_number();
+
+/// Reads a molecule, and prints the reader's warnings.
+std::vector<Atom> read_molecule(const std::string& file);
+
+}  // namespace gaussmesh::app
