@@ -27,6 +27,7 @@ CheckFindings find_all(const CheckOptions& options) {
   found.tolerance = options.tolerance;
   if (!is_measurable) return found;
   found.distance = distance_to_surface(mesh, atoms, options.decay, options.isovalue);
+  found.two_sided = two_sided_distance(mesh, atoms, options.decay, options.isovalue);
   found.charges_outside = find_charges_outside(mesh, found.mesh, atoms);
   return found;
 }

@@ -93,11 +93,14 @@ std::string distance_text(const CheckFindings& found) {
   if (!found.tolerance) return "";
   if (!found.distance) return "Distance from the surface: not measured, since vertices are missing or unusable\n";
   const SurfaceDistance& d = *found.distance;
+  const TwoSidedDistance& both = *found.two_sided;
   return "Distance from the surface\n" +
          line("  vertices         mean %.4g A, largest %.4g A, tolerance %.4g A\n", d.mean_vertex_distance,
               d.max_vertex_distance, *found.tolerance) +
          line("  centroids        mean %.4g A, largest %.4g A\n", d.mean_centroid_distance,
               d.max_centroid_distance) +
+         line("  and middles of edges: mean %.4g A, largest %.4g A; from the surface to the mesh %.4g A\n",
+              both.mean_mesh_to_surface, both.mesh_to_surface, both.surface_to_mesh) +
          line("  faces turned against the gradient  %zu\n", d.faces_against_gradient);
 }
 
@@ -140,7 +143,10 @@ Json distance_json(const CheckFindings& found) {
           {"vertex_distance_mean_A", d.mean_vertex_distance},
           {"centroid_distance_max_A", d.max_centroid_distance},
           {"centroid_distance_mean_A", d.mean_centroid_distance},
-          {"faces_against_gradient", d.faces_against_gradient}};
+          {"faces_against_gradient", d.faces_against_gradient},
+          {"mesh_to_surface_max_A", found.two_sided->mesh_to_surface},
+          {"mesh_to_surface_mean_A", found.two_sided->mean_mesh_to_surface},
+          {"surface_to_mesh_max_A", found.two_sided->surface_to_mesh}};
 }
 
 }  // namespace

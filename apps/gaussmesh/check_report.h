@@ -7,6 +7,7 @@
 
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/measure_mesh.h"
+#include "gaussmesh/two_sided_distance.h"
 
 namespace gaussmesh::app {
 
@@ -17,6 +18,7 @@ struct CheckFindings {
   std::optional<double> tolerance;  ///< of the vertices' distance (A); there if a molecule was given
   std::optional<SurfaceDistance>
       distance;  ///< from the molecule's surface; missing too where it cannot be measured
+  std::optional<TwoSidedDistance> two_sided;                  ///< likewise
   std::optional<std::vector<std::uint32_t>> charges_outside;  ///< atoms; likewise
   double separation = 0.0;                                    ///< of the vertices (A)
   bool separation_is_required = false;                        ///< nearer ones are a defect, and not only told

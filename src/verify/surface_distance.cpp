@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "gaussmesh/check_mesh.h"
-#include "gaussmesh/error.h"
 #include "verify/atom_tree.h"
 #include "verify/morton_order.h"
 #include "verify/surface_feet.h"
@@ -17,6 +15,8 @@ namespace {
 
 constexpr std::size_t kPointsInRun =
     512;  // one run is one thread's work; each starts afresh and has its own result
+
+constexpr double kPrecision = 1e-9;  // A
 
 /// The surface, and how near to it points are expected.
 struct Level {
@@ -37,18 +37,6 @@ struct DistanceSums {
   }
 };
 
-void require_positive(double value, const char* what) {
-  if (!(value > 0.0) || std::isinf(value))
-    throw OptionError(std::string(what) + ": expected a number > 0, got '" + std::to_string(value) + "'");
-}
-
-AtomTree tree_for(const std::vector<Atom>& atoms, double decay, double isovalue) {
-  require_positive(decay, "decay");
-  require_positive(isovalue, "isovalue");
-  if (atoms.empty()) throw OptionError("atoms: expected at least one, got 'none'");
-  return AtomTree(atoms);
-}
-
 /// Calls receive(number, foot, sums) for every point, in parallel. The points are put in an order in which
 /// neighbours follow each other, and cut into runs that start afresh, so that the answer does not depend on the
 /// threads.
@@ -64,7 +52,8 @@ DistanceSums sum_over_feet(const AtomTree& tree, const Level& level, std::size_t
     std::array<Point, kPointsInRun> starts;
     std::array<Foot, kPointsInRun> feet;
     for (std::size_t i = 0; i < size; ++i) starts[i] = point_of(order[begin + i]);
-    FootFinder(tree, level.decay, level.isovalue, level.reach).find({starts.data(), size}, {feet.data(), size});
+    FootFinder(tree, level.decay, level.isovalue, level.reach, kPrecision)
+        .find({starts.data(), size}, {feet.data(), size});
     for (std::size_t i = 0; i < size; ++i) receive(order[begin + i], feet[i], parts[run]);
   }
   DistanceSums all;
@@ -107,13 +96,13 @@ bool is_against(const TriangleMesh& mesh, const Triangle& triangle, const Point&
 
 VertexDistance vertex_distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                           double isovalue) {
-  return distance_of_vertices(mesh, tree_for(atoms, decay, isovalue), decay, isovalue);
+  return distance_of_vertices(mesh, tree_for_surface(atoms, decay, isovalue), decay, isovalue);
 }
 
 SurfaceDistance distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                     double isovalue) {
   constexpr double kReach = 0.25;  // widths of a Gaussian: what the middle of a triangle may be off the surface
-  const AtomTree tree = tree_for(atoms, decay, isovalue);
+  const AtomTree tree = tree_for_surface(atoms, decay, isovalue);
   const VertexDistance vertices = distance_of_vertices(mesh, tree, decay, isovalue);
   const Level level{decay, isovalue, kReach / std::sqrt(decay)};
   const DistanceSums centroids = sum_over_feet(

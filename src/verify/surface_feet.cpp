@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "gaussmesh/error.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
@@ -11,8 +13,7 @@ namespace {
 
 constexpr std::size_t kPointsInBlock = 64;  // they share a list of atoms
 constexpr double kBlockWidths = 3.0;        // and lie in a box of at most so many widths of a Gaussian
-constexpr double kLeastShare = 30.0;        // atoms of less than exp(-30) = 1e-13 of the isovalue are left out
-constexpr double kPrecision = 1e-9;         // A
+constexpr double kLeftOut = 1e-4;           // atoms of less than so much of the precision are left out (1/A)
 
 /// Points in lanes.
 struct PointLanes {
@@ -147,6 +148,11 @@ bool is_short(const Box& box, double side) {
   return box.high[0] - box.low[0] <= side && box.high[1] - box.low[1] <= side && box.high[2] - box.low[2] <= side;
 }
 
+void require_positive(double value, const char* what) {
+  if (!(value > 0.0) || std::isinf(value))
+    throw OptionError(std::string(what) + ": expected a number > 0, got '" + std::to_string(value) + "'");
+}
+
 }  // namespace
 
 void FootFinder::AtomArrays::make_room(std::size_t count) {
@@ -161,8 +167,21 @@ void FootFinder::AtomArrays::append(const Atom& atom) {
   radius_sq[size++] = atom.radius * atom.radius;
 }
 
-FootFinder::FootFinder(const AtomTree& tree, double decay, double isovalue, double reach)
-    : tree_(tree), decay_(decay), log_isovalue_(std::log(isovalue)), reach_(reach), slow_field_(tree, decay) {}
+AtomTree tree_for_surface(const std::vector<Atom>& atoms, double decay, double isovalue) {
+  require_positive(decay, "decay");
+  require_positive(isovalue, "isovalue");
+  if (atoms.empty()) throw OptionError("atoms: expected at least one, got 'none'");
+  return AtomTree(atoms);
+}
+
+FootFinder::FootFinder(const AtomTree& tree, double decay, double isovalue, double reach, double precision)
+    : tree_(tree),
+      decay_(decay),
+      log_isovalue_(std::log(isovalue)),
+      reach_(reach),
+      precision_(precision),
+      least_share_(-std::log(kLeftOut * precision)),
+      slow_field_(tree, decay) {}
 
 void FootFinder::find(std::span<const Point> starts, std::span<Foot> feet) {
   const double widest = kBlockWidths / std::sqrt(decay_);
@@ -190,7 +209,7 @@ void FootFinder::gather(const Box& place) {
   visited_.size = 0;
   left_out_ = 0.0;
   tree_.for_each_group_reaching(
-      place, (log_isovalue_ - kLeastShare) / decay_,
+      place, (log_isovalue_ - least_share_) / decay_,
       [&](std::span<const Atom> atoms) {
         visited_.make_room(visited_.size + atoms.size());
         for (const Atom& atom : atoms) visited_.append(atom);
@@ -199,10 +218,10 @@ void FootFinder::gather(const Box& place) {
         left_out_ += static_cast<double>(count) * power_above(decay_ * exponent - log_isovalue_);
       });
   choose(visited_, place, near_);
-  left_out_ += static_cast<double>(visited_.size) * std::exp(-kLeastShare);  // what is not chosen, now or later
+  left_out_ += static_cast<double>(visited_.size) * std::exp(-least_share_);  // what is not chosen, now or later
   const double largest_radius_sq =
       *std::max_element(near_.radius_sq.begin(), near_.radius_sq.begin() + std::max<std::size_t>(near_.size, 1));
-  rounding_ = 0x1p-50 * (2 * decay_ * largest_radius_sq + kLeastShare + 2 * std::abs(log_isovalue_)) +
+  rounding_ = 0x1p-50 * (2 * decay_ * largest_radius_sq + least_share_ + 2 * std::abs(log_isovalue_)) +
               0x1p-52 * kLargestExponent;
 }
 
@@ -211,7 +230,7 @@ void FootFinder::choose(const AtomArrays& from, const Box& place, AtomArrays& to
   if (largest_.size() < from.size) largest_.resize(2 * from.size);
   find_largest_exponents({from.x.data(), from.y.data(), from.z.data(), from.radius_sq.data(), from.size}, place,
                          largest_.data());
-  const double least = (log_isovalue_ - kLeastShare) / decay_;
+  const double least = (log_isovalue_ - least_share_) / decay_;
   to.make_room(from.size + 1);
   std::size_t count = 0;
   for (std::size_t i = 0; i < from.size; ++i) {
@@ -247,7 +266,7 @@ void FootFinder::find_in_lanes(std::span<const Point> starts, std::span<Foot> fe
       for (int k = 0; k < 3; ++k) at[k] += wanted / level.slope * level.gradient[k];
       const double error =
           level.curvature * wanted * wanted / 2 + rounding_ + left_out_ * std::exp(-level.log_ratio);
-      walk.arrived[lane] = error < kPrecision * level.slope;
+      walk.arrived[lane] = error < precision_ * level.slope;
       walk.lost[lane] = !boxes_meet(place, {at, at});
       // The first step is the distance itself: no rounding of coordinates is in it.
       const double distance = step == 0 ? std::abs(wanted) : length(difference(at, starts[lane]));
@@ -273,7 +292,7 @@ Foot FootFinder::find_slowly(const Point& start) {
     Point& x = foot.place;
     for (int k = 0; k < 3; ++k) x[k] += taken / slope * log_phi.gradient[k];
     const double rounding = 1e-12 * std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
-    if (log_phi.curvature * taken * taken / 2 < kPrecision * slope || std::abs(taken) < rounding) {
+    if (log_phi.curvature * taken * taken / 2 < precision_ * slope || std::abs(taken) < rounding) {
       foot.distance = length(difference(x, start));
       break;
     }

@@ -21,18 +21,23 @@ struct Foot {
   Point gradient{};       ///< of log phi at the start
 };
 
+/// The tree of the atoms of a surface. @throws OptionError if decay or isovalue is not positive, or there is no
+/// atom
+AtomTree tree_for_surface(const std::vector<Atom>& atoms, double decay, double isovalue);
+
 /// Finds the feet of points on { phi = isovalue }, phi(x) = sum_i exp(-decay (|x - x_i|^2 - r_i^2)).
 ///
 /// A step of Newton's method of length s is the last if s^2 times a bound of the second derivative of log phi, over
-/// twice the slope, and what rounding and the atoms left out may change, is below 1e-9 A. For points within 1e-4 A
-/// of the surface that is nearly always the first step: one evaluation. Those for which it does not come about near
-/// the start take the slow way (LogField), with all atoms that count.
+/// twice the slope, and what rounding and the atoms left out may change, is below the precision. For points within
+/// 1e-4 A of the surface that is nearly always the first step: one evaluation. Those for which it does not come
+/// about near the start take the slow way (LogField), with all atoms that count.
 ///
 /// Not for several threads at once; the tree must outlive it.
 class FootFinder {
  public:
-  /// @param reach  how far from their starts the feet are expected (A); those farther off are found, but slowly
-  FootFinder(const AtomTree& tree, double decay, double isovalue, double reach);
+  /// @param reach      how far from their starts the feet are expected (A); those farther off are found, but slowly
+  /// @param precision  of the feet (A)
+  FootFinder(const AtomTree& tree, double decay, double isovalue, double reach, double precision);
 
   /// Finds the foot of starts[i] for each i, in feet[i]. Fast where points that follow each other are near each
   /// other. A foot depends on the points of its own call only.
@@ -58,6 +63,8 @@ class FootFinder {
   double decay_;
   double log_isovalue_;
   double reach_;
+  double precision_;
+  double least_share_;           // atoms of less than exp(-least_share_) of the isovalue are left out
   double left_out_ = 0.0;        // bound of the share of isovalue that the atoms not gathered have
   double rounding_ = 0.0;        // bound of the rounding error of log phi
   AtomArrays visited_;           // those that may count round a block of points
