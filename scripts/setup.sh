@@ -7,7 +7,7 @@
 # For Debian 12; later Debian and Ubuntu releases have the same names. Runs as root or through sudo.
 set -euo pipefail
 
-build_packages=(g++ cmake make libeigen3-dev libcli11-dev zlib1g-dev nlohmann-json3-dev)
+build_packages=(g++ cmake make libeigen3-dev libcli11-dev zlib1g-dev nlohmann-json3-dev gemmi-dev tao-pegtl-dev)
 test_packages=(catch2 clang libomp-dev libclang-rt-dev python3 tetgen gmsh python3-meshio python3-vtk9)
 
 wanted=()

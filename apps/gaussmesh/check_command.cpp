@@ -23,7 +23,7 @@ CheckFindings find_all(const CheckOptions& options) {
   found.separation_is_required = options.min_separation.has_value();
   if (is_measurable) found.near = find_near_vertices(mesh, found.separation);
   if (!options.molecule) return found;
-  const std::vector<Atom> atoms = read_molecule(*options.molecule);
+  const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading, false);
   found.tolerance = options.tolerance;
   if (!is_measurable) return found;
   found.distance = distance_to_surface(mesh, atoms, options.decay, options.isovalue);
@@ -40,9 +40,10 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
   command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads")
       ->type_name("MESH")
       ->required();
-  CLI::Option* molecule =
-      command->add_option("molecule", options.molecule, "PQR or XYZR file that it should be the surface of")
-          ->type_name("MOL");
+  CLI::Option* molecule = command
+                              ->add_option("molecule", options.molecule,
+                                           "molecule that it should be the surface of: PQR, XYZR, PDB, mmCIF")
+                              ->type_name("MOL");
   CLI::Option* decay = command->add_option("--d,--decay", options.decay, "decay d of its Gaussians (1/A^2)")
                            ->type_name("D")
                            ->check(positive);
@@ -63,6 +64,7 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
       ->type_name("S")
       ->check(positive);
   add_json_option(*command, options.json);
+  for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   command->footer(
       "Exit codes: 0 the mesh is closed, oriented, embedded and right side out, its vertices are as far apart as\n"
       "asked for, and if there is a molecule they are on its surface and its charges inside; 5 it is not; 2 wrong\n"

@@ -5,12 +5,15 @@
 #include <optional>
 #include <string>
 
+#include "molecule_options.h"
+
 namespace gaussmesh::app {
 
 /// What the command line asks of the check.
 struct CheckOptions {
-  std::string mesh;                      ///< OFF file
-  std::optional<std::string> molecule;   ///< PQR or XYZR file: measure the distance to its surface, too
+  std::string mesh;                      ///< in any format that is read
+  std::optional<std::string> molecule;   ///< measure the distance to its surface, too
+  MoleculeOptions reading;               ///< of the molecule
   double decay = 0.0;                    ///< d of the molecule's Gaussians, 1/A^2
   double isovalue = 0.0;                 ///< c of its surface
   double tolerance = 1e-6;               ///< largest distance (A) that a vertex may have from it

@@ -1,9 +1,6 @@
 #include "convert_command.h"
 
-#include <iostream>
-
 #include "gaussmesh/error.h"
-#include "gaussmesh/read_atoms.h"
 #include "gaussmesh/read_mesh.h"
 #include "output_options.h"
 
@@ -19,8 +16,11 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   command->add_option("output", options.outputs, "meshes to write; -: standard output")
       ->type_name("OUT...")
       ->required();
-  command->add_option("--molecule", options.molecule, "molecule of the mesh, for the nearest atoms that MSMS holds")
-      ->type_name("MOL");
+  CLI::Option* molecule = command
+                              ->add_option("--molecule", options.molecule,
+                                           "molecule of the mesh, for the nearest atoms that MSMS holds")
+                              ->type_name("MOL");
+  for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   return command;
 }
@@ -35,7 +35,10 @@ int run_convert(const ConvertOptions& options) {
                      std::to_string(check.bad_indices) + " of them");
   }
   if (file.data.components.empty()) file.data.components = find_vertex_components(file.mesh, check);
-  if (options.molecule) file.data.atoms = find_nearest_atoms(file.mesh, read_atoms(*options.molecule).atoms, 0);
+  if (options.molecule) {
+    const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading, false);
+    file.data.atoms = find_nearest_atoms(file.mesh, atoms, 0);
+  }
   OutputFiles files;
   for (const std::string& output : options.outputs) files.add_mesh(file.mesh, file.data, output, writing);
   files.commit();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gaussmesh/write_mesh.h"
+#include "molecule_options.h"
 
 namespace gaussmesh::app {
 
@@ -14,6 +15,7 @@ struct ConvertOptions {
   std::string input;
   std::vector<std::string> outputs;
   std::optional<std::string> molecule;  ///< gives the nearest atoms
+  MoleculeOptions reading;              ///< of the molecule
   bool no_header = false;
   WriteOptions writing;
 };

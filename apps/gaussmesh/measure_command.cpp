@@ -68,11 +68,12 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
   CLI::App* app = program.add_subcommand("measure", "area and volume of a mesh, in all and at each atom");
   app->add_option("mesh", command.mesh, "mesh, in any format that convert reads")->type_name("MESH")->required();
   CLI::Option* molecule =
-      app->add_option("molecule", command.molecule, "PQR or XYZR file of its molecule")->type_name("MOL");
+      app->add_option("molecule", command.molecule, "its molecule: PQR, XYZR, PDB, mmCIF")->type_name("MOL");
   app->add_option("--atom-areas", command.atom_areas,
                   "write a line for each atom: its number, counted from 1, and the area nearest to it (A^2)")
       ->type_name("FILE")
       ->needs(molecule);
+  for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
   add_json_option(*app, command.json);
   app->footer(
       "Area and volume are given for each component too; a cavity's volume is negative. With a molecule: the area "
@@ -91,7 +92,8 @@ int run_measure(const MeasureCommand& command) {
     throw InputError(command.mesh + ": expected a mesh to measure, got " + std::to_string(found.mesh.bad_indices) +
                      " triangles that name a missing vertex and " + std::to_string(found.mesh.bad_coordinates) +
                      " vertices without usable coordinates");
-  if (command.molecule) found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule));
+  if (command.molecule)
+    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false));
   if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);
   put_report(measured_text(found), measured_json(found), command.json);
   return 0;

@@ -5,11 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "molecule_options.h"
+
 namespace gaussmesh::app {
 
 struct MeasureCommand {
   std::string mesh;
-  std::optional<std::string> molecule;    ///< PQR or XYZR file: measure by its atoms, too
+  std::optional<std::string> molecule;    ///< measure by its atoms, too
+  MoleculeOptions reading;                ///< of the molecule
   std::optional<std::string> atom_areas;  ///< write the area at each atom here
   std::optional<std::string> json;        ///< write JSON here; "-": to the terminal, in place of the report
 };

@@ -40,7 +40,7 @@ MeshCommand with_preset(MeshCommand command) {
     if (command.preset != preset.name) continue;
     command.options.decay = preset.decay;
     command.options.isovalue = preset.isovalue;
-    if (!command.probe) command.probe = preset.probe;
+    if (!command.reading.probe) command.reading.probe = preset.probe;
   }
   return command;
 }
@@ -53,22 +53,12 @@ bool is_standard_output_taken(const MeshCommand& command) {
 void require_sense(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a file of atoms, got nothing; see --help");
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
-  if (command.probe && !(*command.probe >= 0.0 && *command.probe <= 1000.0))
-    throw OptionError("probe: expected a number from 0 to 1000 (A), got '" + std::to_string(*command.probe) + "'");
   if (!(command.min_cavity_volume >= 0.0))
     throw OptionError("min-cavity-volume: expected a number >= 0 (A^3), got '" +
                       std::to_string(command.min_cavity_volume) + "'");
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
-}
-
-AtomFile read_molecule(const MeshCommand& command) {
-  AtomFile input = command.molecule == "-" ? read_atoms(std::cin, "standard input") : read_atoms(command.molecule);
-  if (!command.quiet)
-    for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
-  if (command.probe) input.atoms = add_probe(std::move(input.atoms), *command.probe);
-  return input;
 }
 
 /// What is written.
@@ -147,8 +137,7 @@ void print_details(const MeshReport& report, std::ostream& out) {
 }  // namespace
 
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
-  program.add_option("molecule", command.molecule, "PQR or XYZR file, plain or gzipped; -: standard input, PQR")
-      ->type_name("MOL");
+  program.add_option("molecule", command.molecule, kMoleculeHelp)->type_name("MOL");
 
   const std::string surface = "Surface";
   CLI::Option* preset = program
@@ -170,11 +159,8 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->type_name("C")
       ->excludes(preset)
       ->group(surface);
-  program
-      .add_option("--probe", command.probe,
-                  "added to every radius, say for a Stern layer (A, 0 to 1000; default 0)")
-      ->type_name("R")
-      ->group(surface);
+  for (CLI::Option* option : add_molecule_options(program, command.reading))
+    option->group(option->check_lname("probe") ? surface : "Input");
   program
       .add_option("--cavities", command.cavities,
                   "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
@@ -226,15 +212,15 @@ int run_mesh(const MeshCommand& given) {
   const MeshCommand command = with_preset(given);
   require_sense(command);
   require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
-  const AtomFile input = read_molecule(command);
+  const std::vector<Atom> atoms = read_molecule(command.molecule, command.reading, command.quiet);
   MeshOptions options = command.options;
   MeshResult result = [&] {
     ProgressBar bar(!command.quiet);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
-    return mesh_surface(input.atoms, options);
+    return mesh_surface(atoms, options);
   }();
-  result.report.probe_radius = command.probe.value_or(0.0);
-  VertexData data = find_vertex_data(command, input.atoms, result);
+  result.report.probe_radius = command.reading.probe.value_or(0.0);
+  VertexData data = find_vertex_data(command, atoms, result);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
   const std::string first = write_all(command, product);

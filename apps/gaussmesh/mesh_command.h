@@ -2,20 +2,19 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "gaussmesh/mesh_surface.h"
-#include "gaussmesh/read_atoms.h"
 #include "gaussmesh/write_mesh.h"
+#include "molecule_options.h"
 
 namespace gaussmesh::app {
 
 struct MeshCommand {
-  std::string molecule;              ///< "-": standard input
-  std::string preset;                ///< names decay, isovalue and probe; empty: they stand in the options
-  std::optional<double> probe;       ///< A, added to every radius
+  std::string molecule;  ///< "-": standard input
+  std::string preset;    ///< names decay, isovalue and probe; empty: they stand in the options
+  MoleculeOptions reading;
   std::string cavities = "keep";     ///< or drop, separate
   double min_cavity_volume = 0.0;    ///< A^3; smaller cavities are left out
   std::vector<std::string> outputs;  ///< "-": standard output

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <iostream>
 
-#include "gaussmesh/read_atoms.h"
 #include "gaussmesh/write_mesh.h"
 
 namespace gaussmesh::app {
@@ -80,11 +79,5 @@ void add_json_option(CLI::App& command, std::optional<std::string>& file) {
 }
 
 CLI::Validator positive_number() { return {refuse_unless_positive, "", "positive"}; }
-
-std::vector<Atom> read_molecule(const std::string& file) {
-  const AtomFile input = read_atoms(file);
-  for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
-  return input.atoms;
-}
 
 }  // namespace gaussmesh::app

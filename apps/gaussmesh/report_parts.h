@@ -32,7 +32,4 @@ void add_json_option(CLI::App& command, std::optional<std::string>& file);
 /// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
 CLI::Validator positive_number();
 
-/// Reads a molecule, and prints the reader's warnings.
-std::vector<Atom> read_molecule(const std::string& file);
-
 }  // namespace gaussmesh::app

@@ -1,4 +1,4 @@
-// Reading atoms from files: PQR, as many programs write it, and XYZR.
+// Reading atoms from files: PQR, as many programs write it, XYZR, and PDB and mmCIF with radii from a named set.
 //
 // Every error and warning names the file and, where there is one, the line. Nothing is guessed: a record that
 // cannot be read in one way only is an error, and what is left out of a file is told in a warning.
@@ -29,20 +29,33 @@ inline constexpr double kLargestRadius = 1e5;
 /// Radii (A) above this are read but warned of: atoms stay below 4 A, residues as one bead below 6 A.
 inline constexpr double kSuspectRadius = 10.0;
 
-/// Reads a PQR or XYZR file, plain or gzipped.
+struct ReadOptions {
+  std::string format;  ///< one of atom_formats(); empty: the name decides
+  std::string radii;   ///< one of radius_sets(), for PDB and mmCIF; other files have radii of their own
+};
+
+/// pqr, xyzr, pdb, mmcif.
+const std::vector<std::string>& atom_formats();
+
+/// bondi, amber, charmm.
+const std::vector<std::string>& radius_sets();
+
+/// Reads a file of atoms, plain or gzipped.
 ///
-/// A name that ends in `.xyzr` or `.xyzr.gz` (in any case) is read by parse_xyzr, every other by parse_pqr. Gzip is
-/// known by its first bytes, whatever the name; data that expand to more than 64 MiB and 200-fold are refused.
+/// Names that end in `.xyzr` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and
+/// perhaps with
+/// `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
+/// than 64 MiB and 200-fold are refused.
 ///
+/// @throws OptionError if a format or set of radii is unknown, or no radii are given for PDB or mmCIF
 /// @throws InputError as the parsers do, and if the file is missing, a directory, unreadable, or corrupt gzip
 ///
 /// Cost: one pass over the file held in memory; a million atoms take about 0.2 s.
 /// Thread-safe. Does not depend on the locale.
-AtomFile read_atoms(const std::filesystem::path& path);
+AtomFile read_atoms(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Reads what is left of `input` (say, standard input), as above; `name` decides the format and stands for the file
-/// in messages.
-AtomFile read_atoms(std::istream& input, std::string_view name);
+/// Reads what is left of `input` (say, standard input), as above; `name` stands for the file.
+AtomFile read_atoms(std::istream& input, std::string_view name, const ReadOptions& options = {});
 
 /// Reads PQR text that is already in memory; `name` stands for the file in messages.
 ///
@@ -80,5 +93,23 @@ AtomFile parse_pqr(std::string_view text, std::string_view name);
 ///
 /// @throws InputError  on any other line, a wrong number of atoms, text without atoms, UTF-16 and NUL bytes
 AtomFile parse_xyzr(std::string_view text, std::string_view name);
+
+/// Reads PDB text that is already in memory.
+///
+/// ATOM and HETATM records are read by their columns. The first model is taken, of each residue the alternate
+/// location that comes first, and no water (HOH, WAT, DOD, ...); warnings count what is left out. Hydrogens are
+/// taken if they are there; none are added. Charges are 0. Radii come from a set:
+///
+/// - bondi: by element; Bondi, J. Phys. Chem. 68:441 (1964)
+/// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)
+/// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
+///
+/// @throws OptionError  if there is no such set
+/// @throws InputError   if a coordinate is no number or out of range, the set has no radius for an atom, or there
+/// is none
+AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii);
+
+/// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does.
+AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii);
 
 }  // namespace gaussmesh

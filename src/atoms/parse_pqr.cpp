@@ -157,9 +157,10 @@ FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {
 }
 
 void PqrParser::fail_at_layout(std::string_view line) const {
-  const char* remedy = has_pdb_columns(line) ? "; is it a PDB file? pdb2pqr gives it charges and radii"
-                       : lines_.is_cut()     ? "; the file ends here, is it cut off?"
-                                             : "";
+  const char* remedy = has_pdb_columns(line)
+                           ? "; is it a PDB file? pdb2pqr gives it charges and radii, or name it .pdb"
+                       : lines_.is_cut() ? "; the file ends here, is it cut off?"
+                                         : "";
   fail_at(place(), "serial, atom, residue, [chain,] residue number, x, y, z, charge, radius in an atom record",
           trim(line), remedy);
 }
@@ -169,7 +170,7 @@ void PqrParser::note_unknown(std::string_view content) {
     fail_at(place(), "PQR records", content, "; PQR-XML is not supported, convert it to PQR");
   }
   if (content.starts_with("data_") || content.starts_with("loop_")) {
-    fail_at(place(), "PQR records", content, "; mmCIF is not supported, pdb2pqr makes PQR of it");
+    fail_at(place(), "PQR records", content, "; mmCIF is read from files named .cif");
   }
   if (unknown_lines_++ == 0) {
     first_unknown_line_ = lines_.number();

@@ -1,21 +1,61 @@
-// Which format a file of atoms is in; the formats themselves are parse_pqr.cpp and parse_xyzr.cpp.
+// Which format a file of atoms is in; the formats themselves are parse_pqr.cpp, parse_xyzr.cpp, parse_pdb.cpp and
+// parse_mmcif.cpp.
 #include "gaussmesh/read_atoms.h"
 
+#include <algorithm>
+
+#include "atoms/radii.h"
 #include "atoms/read_file.h"
+#include "gaussmesh/error.h"
+#include "gaussmesh/nearest_name.h"
 
 namespace gaussmesh {
 namespace {
 
-AtomFile parse_data(std::string_view data, std::string_view name) {
-  return has_extension(name, ".xyzr") ? parse_xyzr(data, name) : parse_pqr(data, name);
+/// The format that the name of a file means.
+std::string format_of_name(std::string_view name) {
+  if (has_extension(name, ".xyzr")) return "xyzr";
+  if (has_extension(name, ".pdb") || has_extension(name, ".ent")) return "pdb";
+  if (has_extension(name, ".cif") || has_extension(name, ".mmcif")) return "mmcif";
+  return "pqr";
+}
+
+std::string choose_format(std::string_view name, const ReadOptions& options) {
+  if (options.format.empty()) return format_of_name(name);
+  const std::vector<std::string>& known = atom_formats();
+  if (std::find(known.begin(), known.end(), options.format) != known.end()) return options.format;
+  throw OptionError("input format: expected pqr, xyzr, pdb or mmcif, got '" + options.format + "'; did you mean '" +
+                    nearest_name(options.format, known) + "'?");
+}
+
+AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {
+  const std::string format = choose_format(name, options);
+  if (format == "xyzr") return parse_xyzr(data, name);
+  if (format == "pqr") return parse_pqr(data, name);
+  if (options.radii.empty()) {
+    throw OptionError(
+        std::string(name) +
+        ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or make a PQR "
+        "file of it with pdb2pqr");
+  }
+  return format == "pdb" ? parse_pdb(data, name, options.radii) : parse_mmcif(data, name, options.radii);
 }
 
 }  // namespace
 
-AtomFile read_atoms(const std::filesystem::path& path) { return parse_data(read_file(path), path.string()); }
+const std::vector<std::string>& atom_formats() {
+  static const std::vector<std::string> formats = {"pqr", "xyzr", "pdb", "mmcif"};
+  return formats;
+}
 
-AtomFile read_atoms(std::istream& input, std::string_view name) {
-  return parse_data(read_stream(input, name), name);
+const std::vector<std::string>& radius_sets() { return radius_set_names(); }
+
+AtomFile read_atoms(const std::filesystem::path& path, const ReadOptions& options) {
+  return parse_data(read_file(path), path.string(), options);
+}
+
+AtomFile read_atoms(std::istream& input, std::string_view name, const ReadOptions& options) {
+  return parse_data(read_stream(input, name), name, options);
 }
 
 }  // namespace gaussmesh

@@ -77,6 +77,45 @@ class Meshing(CliTest):
         self.expect(0, "check", self.mesh)
 
 
+class Structures(CliTest):
+    """PDB with radii from a set."""
+
+    def pdb(self):
+        lines = []
+        for line in self.molecule("1ubq").read_text().splitlines():
+            words = line.split()
+            if words[0] == "ATOM":
+                name = words[2] if len(words[2]) > 3 else " " + words[2]
+                x, y, z = map(float, words[-5:-2])
+                lines.append(f"ATOM  {1:5d} {name:4s} {words[3]:>3s} A{int(words[-6]):4d}    {x:8.3f}{y:8.3f}{z:8.3f}"
+                             f"  1.00 10.00          {words[2].lstrip('0123456789')[0]:>2s}\n")
+        return "".join(lines)
+
+    def test_sets_of_radii(self):
+        self.write("ubq.pdb", self.pdb())
+        volumes = {}
+        for radii in ["bondi", "amber", "charmm"]:
+            self.expect(0, "ubq.pdb", "--radii", radii, "--spacing", 1, "-o", self.mesh, "--report", "r.json")
+            volumes[radii] = json.loads((self.folder / "r.json").read_text())["volume_A3"]
+            self.expect(0, "check", self.mesh, "ubq.pdb", "--radii", radii, "--d", 0.6, "--c", 1.7)
+        self.expect(0, self.molecule("1ubq"), "--spacing", 1, "-o", self.mesh, "--report", "r.json")
+        from_pqr = json.loads((self.folder / "r.json").read_text())["volume_A3"]
+        self.assertAlmostEqual(volumes["amber"] / from_pqr, 1.0, delta=1e-3)  # the ends of the chain differ
+        self.assertEqual(len(set(volumes.values())), 3)
+
+    def test_from_standard_input_and_gzip(self):
+        self.write("ubq.pdb.gz", gzip.compress(self.pdb().encode()))
+        self.expect(0, "ubq.pdb.gz", "--radii", "bondi", "--spacing", 1, "-o", self.mesh)
+        piped = self.expect(0, "-", "--input-format", "pdb", "--radii", "bondi", "--spacing", 1, "-o", "-",
+                            stdin=self.pdb())
+        self.assertEqual(piped.stdout, self.mesh.read_text())
+
+    def test_radii_are_not_guessed(self):
+        self.write("ubq.pdb", self.pdb())
+        self.assertIn("--radii", self.expect(WRONG_USE, "ubq.pdb", "-o", self.mesh).stderr)
+        self.assertIn("'amber'", self.expect(WRONG_USE, "ubq.pdb", "--radii", "ambr", "-o", self.mesh).stderr)
+
+
 class BadInput(CliTest):
     GOOD = "ATOM      1  C   X       1       0.000   0.000   0.000  0.00 2.00\n"
 

@@ -41,5 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   check(gaussmesh::parse_pqr, text);
   check(gaussmesh::parse_xyzr, text);
+  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_pdb(t, name, "bondi"); }, text);
+  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_mmcif(t, name, "bondi"); }, text);
   return 0;
 }

@@ -220,7 +220,7 @@ TEST_CASE("parse_pqr warns of lines that it skips") {
 
 TEST_CASE("parse_pqr refuses other formats") {
   CHECK_THAT(error_of("\n <pqr>\n"), ContainsSubstring("f.pqr:2: expected PQR records, got '<pqr>'; PQR-XML"));
-  CHECK_THAT(error_of("data_1ABC\n#\n"), ContainsSubstring("mmCIF is not supported"));
+  CHECK_THAT(error_of("data_1ABC\n#\n"), ContainsSubstring("mmCIF is read from"));
   CHECK_THAT(error_of("1.0 2.0 3.0 4.0\n"), ContainsSubstring("x y z radius, are read from files named .xyzr"));
   CHECK_THAT(error_of("\xfe\xff"), ContainsSubstring("UTF-16"));
 }

@@ -1,0 +1,39 @@
+#include "molecule_options.h"
+
+#include <iostream>
+
+#include "gaussmesh/error.h"
+#include "names.h"
+
+namespace gaussmesh::app {
+
+std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOptions& options) {
+  return {
+      command
+          .add_option("--radii", options.reading.radii,
+                      "radii of a PDB or mmCIF file: " + join_names(radius_sets(), ", ") + " (required for these)")
+          ->type_name("NAME")
+          ->check(one_of(radius_sets())),
+      command
+          .add_option("--input-format", options.reading.format,
+                      join_names(atom_formats(), ", ") + " (default: by the extension, else PQR)")
+          ->type_name("NAME")
+          ->check(one_of(atom_formats())),
+      command
+          .add_option("--probe", options.probe,
+                      "added to every radius, say for a Stern layer (A, 0 to 1000; default 0)")
+          ->type_name("R")};
+}
+
+std::vector<Atom> read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet) {
+  if (options.probe && !(*options.probe >= 0.0 && *options.probe <= 1000.0)) {
+    throw OptionError("probe: expected a number from 0 to 1000 (A), got '" + std::to_string(*options.probe) + "'");
+  }
+  AtomFile input =
+      path == "-" ? read_atoms(std::cin, "standard input", options.reading) : read_atoms(path, options.reading);
+  if (!quiet)
+    for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
+  return add_probe(std::move(input.atoms), options.probe.value_or(0.0));
+}
+
+}  // namespace gaussmesh::app

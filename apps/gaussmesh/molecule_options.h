@@ -1,0 +1,28 @@
+// What the commands that read a molecule share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaussmesh/read_atoms.h"
+
+namespace gaussmesh::app {
+
+struct MoleculeOptions {
+  ReadOptions reading;
+  std::optional<double> probe;  ///< A, added to every radius
+};
+
+/// What help says of a molecule.
+inline constexpr const char* kMoleculeHelp = "PQR, XYZR, PDB or mmCIF file, plain or gzipped; -: standard input";
+
+/// Adds --radii, --input-format and --probe; `options` must outlive the command. @return the options
+std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOptions& options);
+
+/// Reads the molecule, prints its warnings unless `quiet`, and adds the probe.
+/// @throws InputError, OptionError
+std::vector<Atom> read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet);
+
+}  // namespace gaussmesh::app

@@ -1,0 +1,51 @@
+// The mmCIF reader: the loop _atom_site.
+//
+// https://mmcif.wwpdb.org/dictionaries/mmcif_pdbx_v50.dic/Categories/atom_site.html
+
+#include "atoms/cif_table.h"
+#include "atoms/structure_builder.h"
+#include "atoms/text_lines.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Columns of the table, in the order of their tags; `?` before a tag: it may be missing.
+enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kNumber, kInsertion, kX, kY, kZ };
+const std::vector<std::string> kTags = {
+    "label_atom_id",  "label_comp_id", "type_symbol",        "?label_alt_id", "?pdbx_PDB_model_num",
+    "?label_asym_id", "?auth_seq_id",  "?pdbx_PDB_ins_code", "Cartn_x",       "Cartn_y",
+    "Cartn_z"};
+
+double coordinate(const std::string& text, const std::string& where) {
+  const auto value = parse_number(text);
+  if (!value) throw InputError(where + ": expected a coordinate (A), got " + gaussmesh::quoted(text));
+  return *value;
+}
+
+}  // namespace
+
+AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii) {
+  StructureBuilder builder(name, radii);
+  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kTags);
+  if (!table.is_there) {
+    throw InputError(std::string(name) + ": expected a loop _atom_site with coordinates, got none");
+  }
+  std::size_t number = 0;
+  for (const std::vector<std::string>& row : table.rows) {
+    const std::string where = std::string(name) + ": atom " + std::to_string(++number);
+    builder.add({.where = where,
+                 .name = row[kName],
+                 .residue = row[kResidue],
+                 .element = row[kElement],
+                 .site = row[kChain] + " " + row[kNumber] + row[kInsertion],
+                 .alternate = row[kAlternate],
+                 .model = row[kModel],
+                 .x = coordinate(row[kX], where),
+                 .y = coordinate(row[kY], where),
+                 .z = coordinate(row[kZ], where)});
+  }
+  return builder.finish();
+}
+
+}  // namespace gaussmesh

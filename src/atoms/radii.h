@@ -1,0 +1,33 @@
+// Radii for atoms that come without: named sets.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaussmesh {
+
+/// The names of the sets: bondi, amber, charmm.
+const std::vector<std::string>& radius_set_names();
+
+/// One set. Bondi's goes by the element; those of the force fields by residue and atom, for amino acids and
+/// nucleotides.
+class RadiusSet {
+ public:
+  /// @throws OptionError if there is no set of that name
+  explicit RadiusSet(const std::string& name);
+
+  const std::string& name() const { return name_; }
+
+  /// The radius (A) of an atom; nothing if the set has none. Names in any case.
+  std::optional<double> find(std::string_view residue, std::string_view atom, std::string_view element) const;
+
+ private:
+  std::string name_;
+  bool is_by_residue_ = false;
+  std::map<std::string, double> radii_;  // by element, or by residue and atom with a blank between
+};
+
+}  // namespace gaussmesh

@@ -1,0 +1,72 @@
+#include "atoms/structure_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atoms/text_lines.h"
+#include "gaussmesh/error.h"
+
+namespace gaussmesh {
+namespace {
+
+bool is_water(std::string_view residue) {
+  constexpr std::string_view kWaters[] = {"HOH", "WAT", "DOD", "H2O", "TIP", "TIP3", "SOL"};
+  return std::find(std::begin(kWaters), std::end(kWaters), residue) != std::end(kWaters);
+}
+
+void warn_of(std::size_t count, const std::string& what, const std::string& name, AtomFile& file) {
+  if (count > 0) file.warnings.push_back(name + ": left out " + std::to_string(count) + " atoms " + what);
+}
+
+}  // namespace
+
+bool StructureBuilder::is_taken(const AtomSite& site) {
+  if (!has_model_) {
+    has_model_ = true;
+    model_ = site.model;
+  }
+  if (site.model != model_) {
+    ++other_models_;
+    return false;
+  }
+  if (is_water(site.residue)) {
+    ++waters_;
+    return false;
+  }
+  if (!site.alternate.empty() &&
+      alternates_.try_emplace(site.site, site.alternate).first->second != site.alternate) {
+    ++other_locations_;
+    return false;
+  }
+  return true;
+}
+
+void StructureBuilder::add(const AtomSite& site) {
+  if (!is_taken(site)) return;
+  const std::string name =
+      "atom " + std::string(site.name) + " of residue " + std::string(site.residue) + " " + site.site;
+  for (const double value : {site.x, site.y, site.z}) {
+    if (!(std::abs(value) <= kLargestCoordinate)) {
+      throw InputError(site.where + ": expected coordinates within +-1e6 A, got another of " + name);
+    }
+  }
+  const auto radius = radii_.find(site.residue, site.name, site.element);
+  if (!radius) {
+    throw InputError(site.where + ": expected an atom that the radii '" + radii_.name() + "' know, got " + name +
+                     ", element '" + std::string(site.element) +
+                     "'; take it out, use other radii, or give it one in a PQR file");
+  }
+  file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
+}
+
+AtomFile StructureBuilder::finish() {
+  if (file_.atoms.empty()) {
+    throw InputError(file_name_ + ": expected atoms, got none" + (waters_ > 0 ? " but of water" : ""));
+  }
+  warn_of(other_models_, "of models other than the first", file_name_, file_);
+  warn_of(waters_, "of water", file_name_, file_);
+  warn_of(other_locations_, "at alternate locations other than the first", file_name_, file_);
+  return std::move(file_);
+}
+
+}  // namespace gaussmesh

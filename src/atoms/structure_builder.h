@@ -1,0 +1,53 @@
+// What PDB and mmCIF have in common: which of their atoms are taken, and what radius they get.
+//
+// The formats are parse_pdb.cpp and parse_mmcif.cpp.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "atoms/radii.h"
+#include "gaussmesh/read_atoms.h"
+
+namespace gaussmesh {
+
+/// One atom as a file of structures has it.
+struct AtomSite {
+  std::string where;      ///< `file:line`, or what else a message should begin with
+  std::string_view name;  ///< of the atom
+  std::string_view residue;
+  std::string_view element;
+  std::string site;            ///< chain, number and insertion code of the residue: the same for all its atoms
+  std::string_view alternate;  ///< location; empty if there is only one
+  std::string_view model;
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+/// Takes the first model, of each residue the alternate location that comes first, and no water; counts what it
+/// leaves out.
+class StructureBuilder {
+ public:
+  StructureBuilder(std::string_view file, const std::string& radii) : file_name_(file), radii_(radii) {}
+
+  /// @throws InputError if the set of radii has none for the atom, or a coordinate is out of range
+  void add(const AtomSite& site);
+
+  /// What was found, with warnings of what was left out. @throws InputError if there is no atom
+  AtomFile finish();
+
+ private:
+  bool is_taken(const AtomSite& site);
+
+  std::string file_name_;
+  RadiusSet radii_;
+  AtomFile file_;
+  bool has_model_ = false;
+  std::string model_;                              // the first
+  std::map<std::string, std::string> alternates_;  // by residue: the one that is taken
+  std::size_t other_models_ = 0;
+  std::size_t other_locations_ = 0;
+  std::size_t waters_ = 0;
+};
+
+}  // namespace gaussmesh

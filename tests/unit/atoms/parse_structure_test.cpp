@@ -1,0 +1,173 @@
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "atoms/radii.h"
+#include "catch2.h"
+#include "gaussmesh/error.h"
+#include "gaussmesh/read_atoms.h"
+#include "support/folder.h"
+
+using namespace gaussmesh;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+/// One atom of a PQR file, with its names.
+struct NamedAtom {
+  std::string name, residue, number;
+  Atom atom;
+};
+
+std::vector<NamedAtom> read_named(const std::string& file) {
+  std::ifstream input(std::string(GAUSSMESH_DATA) + "/" + file);
+  std::vector<NamedAtom> atoms;
+  for (std::string line; std::getline(input, line);) {
+    std::istringstream words(line);
+    std::string record, serial, chain;
+    NamedAtom a;
+    if (!(words >> record >> serial >> a.name >> a.residue >> chain >> a.number) || record != "ATOM") continue;
+    words >> a.atom.x >> a.atom.y >> a.atom.z >> a.atom.charge >> a.atom.radius;
+    atoms.push_back(a);
+  }
+  return atoms;
+}
+
+std::string pdb_line(const NamedAtom& a, char alternate = ' ', const char* record = "ATOM  ") {
+  char line[100];
+  std::snprintf(line, sizeof line, "%s%5d %-4s%c%3s A%4s    %8.3f%8.3f%8.3f  1.00 10.00          %2c\n", record, 1,
+                (a.name.size() > 3 ? a.name : " " + a.name).c_str(), alternate, a.residue.c_str(), a.number.c_str(),
+                a.atom.x, a.atom.y, a.atom.z, a.name[0]);
+  return line;
+}
+
+std::string mmcif_text(const std::vector<NamedAtom>& atoms) {
+  std::ostringstream text;
+  text << "data_TEST\n#\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+          "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.auth_seq_id\n"
+          "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n";
+  for (const NamedAtom& a : atoms)
+    text << "ATOM " << a.name[0] << " \"" << a.name << "\" . " << a.residue << " A " << a.number << " " << a.atom.x
+         << " " << a.atom.y << " " << a.atom.z << "\n";
+  return text.str();
+}
+
+std::string error_of(const std::string& text, const std::string& radii = "bondi") {
+  try {
+    parse_pdb(text, "a.pdb", radii);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const NamedAtom kCarbon = {"CA", "GLY", "7", {1.5, -2.25, 3.125, 0, 0}};
+
+}  // namespace
+
+TEST_CASE("AMBER radii are those that PDB2PQR gives, but at the ends of chains") {
+  for (const char* file : {"1ubq.pqr", "1crn.pqr", "3icb.pqr"}) {
+    const std::vector<NamedAtom> wanted = read_named(file);
+    REQUIRE(wanted.size() > 600);
+    std::string pdb;
+    for (const NamedAtom& a : wanted) pdb += pdb_line(a);
+    for (const AtomFile& got :
+         {parse_pdb(pdb, "a.pdb", "amber"), parse_mmcif(mmcif_text(wanted), "a.cif", "amber")}) {
+      REQUIRE(got.atoms.size() == wanted.size());
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        CAPTURE(file, i, wanted[i].residue, wanted[i].name);
+        CHECK(got.atoms[i].x == wanted[i].atom.x);
+        CHECK(got.atoms[i].y == wanted[i].atom.y);
+        CHECK(got.atoms[i].z == wanted[i].atom.z);
+        if (wanted[i].number != wanted.front().number) CHECK(got.atoms[i].radius == wanted[i].atom.radius);
+      }
+    }
+  }
+}
+
+TEST_CASE("sets of radii") {
+  const RadiusSet bondi("bondi"), amber("amber"), charmm("charmm");
+  CHECK(bondi.find("ALA", "CA", "C") == 1.70);
+  CHECK(bondi.find("ZZZ", "CL1", "Cl") == 1.75);
+  CHECK(bondi.find("HOH", "D1", "D") == 1.20);
+  CHECK_FALSE(bondi.find("HEM", "FE", "FE"));
+  CHECK(amber.find("SER", "OG", "O") == 1.721);
+  CHECK(amber.find("DT", "C7", "C") == 1.908);
+  CHECK_FALSE(amber.find("HEM", "CHA", "C"));
+  CHECK(charmm.find("ALA", "CA", "C") == 2.275);
+  CHECK(charmm.find("ILE", "CD1", "C") == 2.06);
+  CHECK(charmm.find("A", "H2'", "H") == 1.32);
+  CHECK(charmm.find("A", "HO2'", "H") == 0.2245);
+  CHECK_THROWS_AS(RadiusSet("bondy"), OptionError);
+}
+
+TEST_CASE("elements are in columns 77-78, or in the name") {
+  NamedAtom calcium = {"CA", "GLY", "1", {}};
+  std::string line = pdb_line(calcium);
+  CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.70);  // " CA": a carbon
+  line.replace(12, 4, "ZN  ");
+  CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.39);
+  line.replace(12, 4, "HG11");
+  CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
+  line.replace(12, 4, "1HG1");
+  CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
+}
+
+TEST_CASE("the first model, the first of alternate locations, and no water") {
+  NamedAtom other = kCarbon, water = kCarbon, next = kCarbon;
+  other.atom.x = 9.0;
+  water.residue = "HOH";
+  next.number = "8";
+  next.atom.x = 4.0;
+  const std::string text = "MODEL        1\n" + pdb_line(kCarbon, 'A') + pdb_line(other, 'B') +
+                           pdb_line(next, 'B') + pdb_line(water, ' ', "HETATM") + "ENDMDL\nMODEL        2\n" +
+                           pdb_line(other) + "ENDMDL\n";
+  const AtomFile file = parse_pdb(text, "a.pdb", "bondi");
+  REQUIRE(file.atoms.size() == 2);
+  CHECK(file.atoms[0].x == 1.5);
+  CHECK(file.atoms[1].x == 4.0);
+  REQUIRE(file.warnings.size() == 3);
+  CHECK(file.warnings[0] == "a.pdb: left out 1 atoms of models other than the first");
+}
+
+TEST_CASE("what is no structure names the line") {
+  std::string line = pdb_line(kCarbon);
+  CHECK_THAT(error_of(""), ContainsSubstring("a.pdb: expected atoms, got none"));
+  CHECK_THAT(error_of("HEADER\n" + line.substr(0, 40)), ContainsSubstring("a.pdb:2: expected a coordinate"));
+  line.replace(32, 4, "x.yz");
+  CHECK_THAT(error_of(line), ContainsSubstring("a.pdb:1: expected a coordinate (A) in columns 31-38"));
+  NamedAtom iron = {"FE", "HEM", "1", {}};
+  std::string heme = pdb_line(iron, ' ', "HETATM");
+  heme.replace(76, 2, "FE");
+  CHECK_THAT(error_of(heme), ContainsSubstring("a.pdb:1: expected an atom that the radii 'bondi' know"));
+  CHECK_THAT(error_of(pdb_line(iron), "amber"), ContainsSubstring("FE of residue HEM"));
+}
+
+TEST_CASE("mmCIF that is none") {
+  const auto error_of_cif = [](const std::string& text) {
+    try {
+      parse_mmcif(text, "a.cif", "bondi");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  std::string text = mmcif_text({kCarbon});
+  CHECK_THAT(error_of_cif(""), ContainsSubstring("a.cif"));
+  CHECK_THAT(error_of_cif("data_x\n_cell.length_a 3\n"), ContainsSubstring("a.cif: expected a loop _atom_site"));
+  CHECK_THAT(error_of_cif("data_x\nloop_\n"), ContainsSubstring("a.cif:"));
+  text.replace(text.find("-2.25"), 5, "?    ");
+  CHECK_THAT(error_of_cif(text), ContainsSubstring("a.cif: atom 1: expected a coordinate"));
+}
+
+TEST_CASE("which format a file is in") {
+  const testing::Folder folder;
+  std::ofstream(folder / "a.pdb") << pdb_line(kCarbon);
+  std::ofstream(folder / "a.cif") << mmcif_text({kCarbon});
+  std::ofstream(folder / "b") << pdb_line(kCarbon);
+  CHECK(read_atoms(folder / "a.pdb", {"", "bondi"}).atoms.size() == 1);
+  CHECK(read_atoms(folder / "a.cif", {"", "bondi"}).atoms.size() == 1);
+  CHECK(read_atoms(folder / "b", {"pdb", "bondi"}).atoms.size() == 1);
+  CHECK_THROWS_AS(read_atoms(folder / "a.pdb"), OptionError);
+  CHECK_THROWS_AS(read_atoms(folder / "b", {"pdq", "bondi"}), OptionError);
+}
