@@ -69,7 +69,7 @@ void fill_layer(const double* p, std::size_t n, double lo, double hi, const doub
   for (std::size_t i = 0; i < n; ++i) {
     const double more = at_lo[i] > at_hi[i] ? at_lo[i] : at_hi[i];
     farthest[i] = at_lo[i] > at_hi[i] ? at_hi[i] : at_lo[i];
-    nearest[i] = (p[i] >= lo) & (p[i] <= hi) ? 1.0 : more;
+    nearest[i] = ((p[i] >= lo) & (p[i] <= hi)) ? 1.0 : more;
   }
 }
 

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Meshes many molecules: a folder or a list of PQR, XYZR, PDB or mmCIF files.
+
+    scripts/mesh_batch.py molecules/ --output meshes --program build/release/bin/gaussmesh --jobs 2 -- --preset ses-area
+
+Each molecule becomes meshes/NAME.off and meshes/NAME.json, its report; both appear together or not at all. Options
+behind `--` go to gaussmesh as they are. PDB and mmCIF files go through pdb2pqr, which adds hydrogens and radii
+(--force-field), or get radii by name (--radii). A molecule that fails does not stop the others.
+
+A second run makes only what is missing, older than its molecule, or was made with other options; `--again` makes all
+anew. At the end, meshes/table.csv has a row for each molecule that there is a mesh of, and meshes/failures.tsv each that
+failed, with its reason.
+
+Exit code 0: all molecules have meshes. 1: some have not. 2: wrong use.
+"""
+
+import argparse
+import concurrent.futures
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SUFFIXES = {".pqr", ".xyzr", ".pdb", ".ent", ".cif", ".mmcif"}
+NEED_RADII = {".pdb", ".ent", ".cif", ".mmcif"}
+COLUMNS = ["molecule", "atoms", "triangles", "vertices", "area_A2", "volume_A3", "components", "cavities", "genus",
+           "min_angle_deg", "mean_min_angle_deg", "mean_edge_ratio", "time_s", "verdict"]
+
+
+def kind(path):
+    """The extension that tells the format, without a .gz behind it."""
+    return pathlib.Path(path.name.removesuffix(".gz")).suffix.lower()
+
+
+def name_of(path):
+    return pathlib.Path(path.name.removesuffix(".gz")).stem
+
+
+def find_molecules(options):
+    """All molecules by name; two of one name are an error, since they would share a mesh."""
+    files = []
+    for item in options.molecules:
+        files += sorted(p for p in item.iterdir() if kind(p) in SUFFIXES) if item.is_dir() else [item]
+    if options.list:
+        lines = options.list.read_text(encoding="utf-8").splitlines()
+        files += [pathlib.Path(line.strip()) for line in lines if line.strip() and not line.startswith("#")]
+    molecules = {}
+    for path in files:
+        other = molecules.setdefault(name_of(path), path)
+        if other is not path:
+            sys.exit(f"mesh_batch.py: expected different names, got {other} and {path}")
+    return molecules
+
+
+def run(command, options):
+    """Runs a program; returns why it failed, or nothing."""
+    try:
+        result = subprocess.run(list(map(str, command)), capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                                timeout=options.timeout, check=False)
+    except subprocess.TimeoutExpired:
+        return f"{pathlib.Path(command[0]).name}: more than {options.timeout:g} s"
+    except OSError as error:
+        return str(error)
+    if result.returncode == 0:
+        return ""
+    last = (result.stderr.strip() or result.stdout.strip() or "no message").splitlines()[-1]
+    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {last}"
+
+
+def is_done(path, mesh, report, stamp, wanted):
+    """Whether the mesh is there, newer than its molecule, and made with the same options."""
+    try:
+        return (mesh.exists() and report.exists() and stamp.read_text(encoding="utf-8") == wanted and
+                report.stat().st_mtime >= path.stat().st_mtime)
+    except OSError:
+        return False
+
+
+def make_mesh(path, options):
+    """Makes the mesh of one molecule if it is not there; returns why it failed, or nothing."""
+    name = name_of(path)
+    mesh, report = options.output / f"{name}{options.extension}", options.output / f"{name}.json"
+    stamp, wanted = options.output / f".{name}.options", json.dumps([options.radii, options.force_field, options.rest])
+    if not path.is_file():
+        return "no such file"
+    if not options.again and is_done(path, mesh, report, stamp, wanted):
+        return ""
+    with tempfile.TemporaryDirectory(prefix="mesh_batch_") as folder:
+        source, extra = path, []
+        if kind(path) in NEED_RADII and options.radii:
+            extra = ["--radii", options.radii]
+        elif kind(path) in NEED_RADII:
+            source = pathlib.Path(folder) / f"{name}.pqr"
+            reason = run([options.pdb2pqr, "--ff", options.force_field, "--drop-water", path, source], options)
+            if reason:
+                return reason
+        stamp.unlink(missing_ok=True)
+        reason = run([options.program, source, *extra, *options.rest, "--threads", options.threads, "--quiet", "-o", mesh,
+                      "--report", report], options)
+    if not reason:
+        stamp.write_text(wanted, encoding="utf-8")
+    return reason
+
+
+def row_of(name, report):
+    said = json.loads(report.read_text(encoding="utf-8"))
+    components = said["components"]
+    return {"molecule": name, "atoms": said["atoms"], "triangles": said["triangles"], "vertices": said["vertices"],
+            "area_A2": said["area_A2"], "volume_A3": said["volume_A3"],
+            "components": sum(c["kind"] == "outside" for c in components),
+            "cavities": sum(c["kind"] == "cavity" for c in components), "genus": sum(c["genus"] for c in components),
+            **{key: said["quality"][key] for key in ("min_angle_deg", "mean_min_angle_deg", "mean_edge_ratio")},
+            "time_s": round(sum(stage["time_s"] for stage in said["stages"]), 3),
+            "verdict": "certified" if said["certified"] else "not certified"}
+
+
+def write_tables(molecules, failures, options):
+    with open(options.output / "table.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        for name in molecules:
+            if name not in failures:
+                writer.writerow(row_of(name, options.output / f"{name}.json"))
+    lines = [f"{molecules[name]}\t{reason}\n" for name, reason in failures.items()]
+    (options.output / "failures.tsv").write_text("".join(lines), encoding="utf-8")
+
+
+def parse_arguments(arguments):
+    own, rest = (arguments[:arguments.index("--")], arguments[arguments.index("--") + 1:]) if "--" in arguments \
+        else (arguments, [])
+    parser = argparse.ArgumentParser(description="Meshes many molecules; see the head of this file.")
+    parser.add_argument("molecules", nargs="*", type=pathlib.Path, help="files, or folders of them")
+    parser.add_argument("--list", type=pathlib.Path, help="file with the path of a molecule on each line")
+    parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the meshes")
+    parser.add_argument("--extension", default=".off", help="of the meshes, which means their format (default: .off)")
+    parser.add_argument("--program", default="gaussmesh")
+    parser.add_argument("--pdb2pqr", default="pdb2pqr", help="the program of that name")
+    parser.add_argument("--force-field", default="AMBER", help="for pdb2pqr (default: AMBER)")
+    parser.add_argument("--radii", default="", help="bondi, amber or charmm: instead of pdb2pqr")
+    parser.add_argument("--jobs", type=int, default=1, help="molecules at a time (default: 1)")
+    parser.add_argument("--threads", type=int, default=1, help="threads for each of them (default: 1)")
+    parser.add_argument("--timeout", type=float, default=3600.0, help="seconds for each program (default: 3600)")
+    parser.add_argument("--again", action="store_true", help="make all meshes anew")
+    options = parser.parse_args(own)
+    options.rest = rest
+    return options
+
+
+def main():
+    options = parse_arguments(sys.argv[1:])
+    molecules = find_molecules(options)
+    if not molecules:
+        print("mesh_batch.py: expected molecules, got none", file=sys.stderr)
+        return 2
+    options.output.mkdir(parents=True, exist_ok=True)
+    failures = {}
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        pending = {pool.submit(make_mesh, path, options): name for name, path in molecules.items()}
+        for number, future in enumerate(concurrent.futures.as_completed(pending), start=1):
+            name, reason = pending[future], future.result()
+            if reason:
+                failures[name] = reason
+            print(f"[{number}/{len(molecules)}] {name}: {reason or 'good'}", file=sys.stderr)
+    write_tables(molecules, dict(sorted(failures.items())), options)
+    print(f"{len(molecules) - len(failures)} of {len(molecules)} molecules meshed; {options.output / 'table.csv'}"
+          + (f", {options.output / 'failures.tsv'}" if failures else ""))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""The README's commands from a PDB file to a mesh and on, the batch script, and the schema of the report.
+
+    tests/cli/readme_test.py --program build/bin/gaussmesh --data data [CLASS...]
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import jsonschema
+from support import CliTest, run_tests, settings
+
+SECTION = "## From a PDB file to a mesh, and on"
+
+
+def pdb_text(pqr):
+    """A PDB file of the atoms of a PQR file, without its hydrogens."""
+    lines = []
+    for words in map(str.split, pqr.read_text().splitlines()):
+        if words and words[0] == "ATOM" and not words[2].lstrip("0123456789").startswith("H"):
+            x, y, z = map(float, words[-5:-2])
+            lines.append(f"ATOM  {len(lines) + 1:5d}  {words[2]:3s} {words[3]:>3s} A{int(words[-6]):4d}    "
+                         f"{x:8.3f}{y:8.3f}{z:8.3f}  1.00 10.00          {words[2][0]:>2s}\n")
+    return "".join([*lines, "TER\n", "END\n"])
+
+
+class Readme(CliTest):
+    def test_commands_run_as_they_stand(self):
+        root = settings.data.parent
+        text = (root / "README.md").read_text(encoding="utf-8")
+        section = text[text.index(SECTION):].split("\n## ", 1)[0]
+        commands = [line.strip() for line in section.splitlines() if line.startswith("    ")]
+        self.assertGreater(len(commands), 7)
+        (self.folder / "molecules").mkdir()
+        self.write("mol.pdb", pdb_text(self.molecule("1l2y")))
+        shutil.copy(self.molecule("methanol"), self.folder / "molecules")
+        shutil.copy(self.folder / "mol.pdb", self.folder / "molecules")
+        (self.folder / "scripts").symlink_to(root / "scripts")
+        path = f"{settings.program.parent}:/usr/bin:{os.environ['PATH']}"
+        for command in commands:
+            result = subprocess.run(["bash", "-c", command], cwd=self.folder, env={**os.environ, "PATH": path},
+                                    capture_output=True, text=True, timeout=200, check=False)
+            self.assertEqual(result.returncode, 0, f"{command}\n{result.stdout}{result.stderr}")
+        made = ["mol.off", "bondi.off", "mol.vert", "mol.face", "surf_1.vert", "mol.msh", "mol.smesh", "mol.1.ele", "mol.ply",
+                "mol.vtp", "meshes"]
+        self.assertEqual(set(made) - set(self.files()), set())
+        self.assertEqual(sorted(p.name for p in (self.folder / "meshes").glob("[a-z]*")),
+                         ["failures.tsv", "methanol.json", "methanol.off", "mol.json", "mol.off", "table.csv"])
+
+
+class Batch(CliTest):
+    def batch(self, *arguments):
+        command = ["/usr/bin/python3", str(settings.data.parent / "scripts" / "mesh_batch.py"), *map(str, arguments),
+                   "--program", str(settings.program)]
+        if "--" in arguments:
+            command = command[:-2]
+            command[command.index("--"):command.index("--")] = ["--program", str(settings.program)]
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+
+    def test_goes_on_past_failures_and_takes_up_where_it_stopped(self):
+        good = [self.molecule(name) for name in ("methanol", "dmso")]
+        self.write("bad.pqr", "ATOM 1 C X 1 0 0 0 0 x\n")
+        self.write("list.txt", "\n".join(map(str, [*good, "bad.pqr", "none.pqr", ""])))
+        first = self.batch("--list", "list.txt", "--output", "out", "--jobs", 2)
+        self.assertEqual(first.returncode, 1, first.stderr)
+        rows = (self.folder / "out" / "table.csv").read_text().splitlines()
+        self.assertEqual([row.split(",")[0] for row in rows], ["molecule", "methanol", "dmso"])
+        self.assertTrue(all(row.endswith(",certified") for row in rows[1:]))
+        failures = (self.folder / "out" / "failures.tsv").read_text()
+        self.assertRegex(failures, r"bad.pqr\tgaussmesh: exit 3: .*bad.pqr:1: ")
+        self.assertIn("none.pqr\tno such file", failures)
+        stamps = [(self.folder / "out" / f"{name}.off").stat().st_ino for name in ("methanol", "dmso")]
+        (self.folder / "out" / "dmso.off").unlink()
+        self.batch("--list", "list.txt", "--output", "out")
+        again = [(self.folder / "out" / f"{name}.off").stat().st_mtime_ns for name in ("methanol", "dmso")]
+        self.assertEqual((self.folder / "out" / "methanol.off").stat().st_ino, stamps[0], "it was there")
+        self.batch("--list", "list.txt", "--output", "out", "--", "--spacing", 0.7)
+        third = [(self.folder / "out" / f"{name}.off").stat().st_mtime_ns for name in ("methanol", "dmso")]
+        self.assertTrue(all(new > old for new, old in zip(third, again)), "other options, other meshes")
+
+
+class Schema(CliTest):
+    def test_reports_are_as_the_schema_says(self):
+        schema = json.loads((settings.data / "report.schema.json").read_text())
+        jsonschema.Draft7Validator.check_schema(schema)
+        validator = jsonschema.Draft7Validator(schema)
+        self.expect(0, self.molecule("fas2"), "--spacing", 1, "-o", self.mesh, "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        validator.validate(report)
+        for key in schema["required"]:
+            self.assertFalse(validator.is_valid({k: v for k, v in report.items() if k != key}), key)
+        self.assertEqual(set(report), set(schema["properties"]), "no key is without its description")
+
+
+if __name__ == "__main__":
+    assert pathlib.Path("/usr/bin/pdb2pqr").exists()
+    sys.exit(run_tests(__name__))
