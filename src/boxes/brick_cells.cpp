@@ -3,9 +3,10 @@
 namespace gaussmesh {
 namespace {
 
-/// Cells come in blocks that share a list of atoms: making one for each cell costs more than the atoms that it saves.
+/// Cells come in blocks that share a list of atoms for proofs, and these in octants of the brick that share one for
+/// roots: making lists for smaller boxes costs more than the atoms that it saves.
 constexpr int kBlockCells = 2;
-constexpr int kBlocks = kBrickCells / kBlockCells;
+constexpr int kOctantCells = kBrickCells / 2;
 
 }  // namespace
 
@@ -23,32 +24,41 @@ void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
     }
   }
   tables_.build(brick_atoms_, field_.decay(), planes_);
-  for (int block = 0; block < kBlocks * kBlocks * kBlocks; ++block) {
-    walk_block(origin, {block % kBlocks * kBlockCells, block / kBlocks % kBlocks * kBlockCells,
-                        block / (kBlocks * kBlocks) * kBlockCells}, visit);
+  for (int octant = 0; octant < 8; ++octant) {
+    const std::array<int, 3> first{(octant & 1) * kOctantCells, (octant >> 1 & 1) * kOctantCells,
+                                   (octant >> 2) * kOctantCells};
+    octant_loaded_ = false;
+    for (int block = 0; block < 8; ++block) {
+      walk_block(origin, first, {first[0] + (block & 1) * kBlockCells, first[1] + (block >> 1 & 1) * kBlockCells,
+                                 first[2] + (block >> 2) * kBlockCells}, visit);
+    }
   }
 }
 
-void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& first, const Visitor& visit) {
-  bool atoms_loaded = false;
+Box BrickWalker::box_of(const std::array<int, 3>& first, int cells) const {
+  return {{planes_[0][first[0]], planes_[1][first[1]], planes_[2][first[2]]},
+          {planes_[0][first[0] + cells], planes_[1][first[1] + cells], planes_[2][first[2] + cells]}};
+}
+
+void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& octant, const std::array<int, 3>& first,
+                             const Visitor& visit) {
+  bool block_loaded = false;
   for (int part = 0; part < kBlockCells * kBlockCells * kBlockCells; ++part) {
     const int i = first[0] + (part & 1), j = first[1] + (part >> 1 & 1), k = first[2] + (part >> 2);
     if (!tables_.may_cross(i, j, k)) continue;
-    if (!atoms_loaded) {
-      const Box block{{planes_[0][first[0]], planes_[1][first[1]], planes_[2][first[2]]},
-                      {planes_[0][first[0] + kBlockCells], planes_[1][first[1] + kBlockCells],
-                       planes_[2][first[2] + kBlockCells]}};
-      block_atoms_.restrict_from(brick_atoms_, block, field_.decay(), kTruncation);
-      proof_atoms_.restrict_from(block_atoms_, block, field_.decay(), kProofTruncation);
-      atoms_loaded = true;
+    if (!octant_loaded_) {
+      octant_atoms_.restrict_from(brick_atoms_, box_of(octant, kOctantCells), field_.decay(), kTruncation);
     }
-    const Box box{{planes_[0][i], planes_[1][j], planes_[2][k]}, {planes_[0][i + 1], planes_[1][j + 1], planes_[2][k + 1]}};
-    const LocalModel model(proof_atoms_, field_.decay(), box);
+    if (!block_loaded) {
+      proof_atoms_.restrict_from(octant_atoms_, box_of(first, kBlockCells), field_.decay(), kProofTruncation);
+    }
+    octant_loaded_ = block_loaded = true;
+    const LocalModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
     const CellCertificate certificate = prover_.certify(proof_atoms_, model);
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
            i + kBrickCells * (j + kBrickCells * k),
-           block_atoms_,
+           octant_atoms_,
            model,
            certificate,
            tables_.corner(i, j, k),

@@ -33,12 +33,16 @@ class BrickWalker {
   const std::vector<std::size_t>& boxes_by_level() const { return prover_.boxes_by_depth(); }
 
  private:
-  void walk_block(const FineIndex& origin, const std::array<int, 3>& first, const Visitor& visit);
+  /// The octant and the block are given by their first cells.
+  void walk_block(const FineIndex& origin, const std::array<int, 3>& octant, const std::array<int, 3>& first,
+                  const Visitor& visit);
+  Box box_of(const std::array<int, 3>& first, int cells) const;
 
   const GaussianField& field_;
   const Lattice& lattice_;
   CellProver prover_;
-  NearAtoms brick_atoms_, block_atoms_, proof_atoms_;
+  NearAtoms brick_atoms_, octant_atoms_, proof_atoms_;
+  bool octant_loaded_ = false;
   BrickTables::Planes planes_{};
   BrickTables tables_;
 };

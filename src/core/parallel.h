@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <exception>
+#include <optional>
+#include <type_traits>
 
 namespace gaussmesh {
 
@@ -26,6 +28,32 @@ void parallel_for(std::size_t count, int threads, const Work& work) {
       if (i < error_at) {
         error_at = i;
         error = std::current_exception();
+      }
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+/// The same with a worker for each thread, which keeps buffers from slot to slot: make_worker() gives something that is
+/// called with i. Threads take `chunk` slots at a time.
+template <typename MakeWorker>
+void parallel_for_workers(std::size_t count, int threads, int chunk, const MakeWorker& make_worker) {
+  std::exception_ptr error;
+  std::size_t error_at = count;
+#pragma omp parallel num_threads(threads)
+  {
+    std::optional<std::invoke_result_t<const MakeWorker&>> worker;
+#pragma omp for schedule(dynamic, chunk)
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        if (!worker) worker.emplace(make_worker());
+        (*worker)(i);
+      } catch (...) {
+#pragma omp critical(gaussmesh_parallel_for)
+        if (i < error_at) {
+          error_at = i;
+          error = std::current_exception();
+        }
       }
     }
   }

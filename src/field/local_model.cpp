@@ -100,6 +100,9 @@ constexpr int kThird[3][3][3] = {{{0, 3, 4}, {3, 5, 9}, {4, 9, 7}},
                                  {{4, 9, 7}, {9, 6, 8}, {7, 8, 2}}};
 constexpr int kSecond[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 
+/// Indices of the third moments that a second one and x, y or z make.
+constexpr int kTimes[6][3] = {{0, 3, 4}, {5, 1, 6}, {7, 8, 2}, {3, 5, 9}, {4, 9, 7}, {9, 6, 8}};
+
 }  // namespace
 
 LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
@@ -138,6 +141,7 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box)
   for (int i = 0; i < 10; ++i) third_[i] = moments.third[i] * inverse;
   relative_error_ = 2.0 * weight_error(2.0 * atoms.w_size + std::abs(psi_) + kFineTruncation, n) + 1e-14;
   growth_ = std::max(1.0, moments.growth * inverse) * (1.0 + 1e-6);
+  log_growth_ = std::log(growth_);
   // Rounding of exp(z) - 1 - ... is absolute: a few ulp of exp(z).
   const double lost = 16.0 * relative_error_ * growth_;
   double farthest = 0.0;
@@ -167,31 +171,39 @@ LocalModel::View::View(const LocalModel& model, const Box& part) : model_(model)
   }
   lambda = std::min(1.0, lambda * (1.0 + 1e-12));
 
-  for (int j = 0; j < 3; ++j) {
-    double row = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      double third_t = 0.0;
-      for (int l = 0; l < 3; ++l) third_t += model.third_[kThird[j][k][l]] * t_[l];
-      const double second = model.second_[kSecond[j][k]];
-      g2_[j][k] = second + third_t;
-      row += (second + 0.5 * third_t) * t_[k];
-      g_ += (0.5 * second + third_t / 6.0) * t_[j] * t_[k];
+  const double* second = model.second_;
+  const double* third = model.third_;
+  std::copy(second, second + 6, g2_);
+  const double x = t_[0], y = t_[1], z = t_[2];
+  if (x != 0.0 || y != 0.0 || z != 0.0) {
+    double third_t[6];   // the third moments times t, by the indices of second_
+    for (int i = 0; i < 6; ++i) third_t[i] = third[kTimes[i][0]] * x + third[kTimes[i][1]] * y + third[kTimes[i][2]] * z;
+    double half[6], sixth[6];
+    for (int i = 0; i < 6; ++i) {
+      g2_[i] += third_t[i];
+      half[i] = second[i] + 0.5 * third_t[i];
+      sixth[i] = 0.5 * second[i] + third_t[i] / 6.0;
     }
-    g1_[j] = row;
+    g1_ = {half[0] * x + half[3] * y + half[4] * z, half[3] * x + half[1] * y + half[5] * z,
+           half[4] * x + half[5] * y + half[2] * z};
+    g_ += sixth[0] * x * x + sixth[1] * y * y + sixth[2] * z * z +
+          2.0 * (sixth[3] * x * y + sixth[4] * x * z + sixth[5] * y * z);
   }
-  for (int j = 0; j < 3; ++j) {
-    sum1_ += std::abs(g1_[j]) * s_[j];
-    for (int k = 0; k < 3; ++k) {
-      sum2_ += std::abs(g2_[j][k]) * s_[j] * s_[k];
-      for (int l = 0; l < 3; ++l) sum3_ += std::abs(model.third_[kThird[j][k][l]]) * s_[j] * s_[k] * s_[l];
-    }
-  }
+  const double sx = s_[0], sy = s_[1], sz = s_[2];
+  const auto size = [](double v) { return std::abs(v); };
+  sum1_ = size(g1_[0]) * sx + size(g1_[1]) * sy + size(g1_[2]) * sz;
+  sum2_ = size(g2_[0]) * sx * sx + size(g2_[1]) * sy * sy + size(g2_[2]) * sz * sz +
+          2.0 * (size(g2_[3]) * sx * sy + size(g2_[4]) * sx * sz + size(g2_[5]) * sy * sz);
+  sum3_ = size(third[0]) * sx * sx * sx + size(third[1]) * sy * sy * sy + size(third[2]) * sz * sz * sz +
+          3.0 * (size(third[3]) * sx * sx * sy + size(third[4]) * sx * sx * sz + size(third[5]) * sy * sy * sx +
+                 size(third[6]) * sy * sy * sz + size(third[7]) * sz * sz * sx + size(third[8]) * sz * sz * sy) +
+          6.0 * size(third[9]) * sx * sy * sz;
   // Rounding errors of the moments are part of the remainders; they do not shrink with the part.
   const double lost = 16.0 * model.relative_error_ * model.growth_;
   const double cube = lambda * lambda * lambda;
   remainder_ = cube * lambda * model.remainder_ + lost;
   for (int k = 0; k < 3; ++k) remainder_slope_[k] = cube * model.remainder_slope_[k] + lost * model.slope_size_;
-  middle_value_ = model.psi_ + (g_ > 0.0 ? std::log(g_) : 0.0);
+  middle_value_ = model.psi_ + (g_ > 0.0 && g_ != 1.0 ? std::log(g_) : 0.0);
   for (int k = 0; k < 3; ++k) middle_value_ -= model.decay_ * t_[k] * (2.0 * model.mean_offset_[k] + t_[k]);
 }
 
@@ -203,7 +215,7 @@ Vec3 LocalModel::View::middle_gradient() const {
 
 double LocalModel::View::middle_curvature(int axis) const {
   const double slope = g1_[axis] / g_;
-  return g2_[axis][axis] / g_ - slope * slope - 2.0 * model_.decay_;
+  return g2_[axis] / g_ - slope * slope - 2.0 * model_.decay_;
 }
 
 Range LocalModel::View::value() const {
@@ -211,7 +223,7 @@ Range LocalModel::View::value() const {
   if (model_.empty_) return {-kInfinity, std::log(model_.tail_) + 1e-15};
   if (!model_.usable_) return {-kInfinity, kInfinity};
   // Jensen: g >= 1; and g <= growth_. The rest is a quadratic polynomial, bounded axis by axis.
-  double plain_lo = model_.psi_, plain_hi = model_.psi_ + std::log(model_.growth_);
+  double plain_lo = model_.psi_, plain_hi = model_.psi_ + model_.log_growth_;
   double size = std::abs(model_.psi_) + 1.0;
   for (int k = 0; k < 3; ++k) {
     const double v = model_.mean_offset_[k], a = t_[k] - s_[k], b = t_[k] + s_[k];
@@ -225,10 +237,10 @@ Range LocalModel::View::value() const {
     double linear = 0.0, quadratic_lo = 0.0, quadratic_hi = 0.0;
     for (int j = 0; j < 3; ++j) {
       linear += std::abs(g1_[j] / g_ - 2.0 * d * (model_.mean_offset_[j] + t_[j])) * s_[j];
-      const double diagonal = (0.5 * g2_[j][j] / g_ - d) * s_[j] * s_[j];
+      const double diagonal = (0.5 * g2_[j] / g_ - d) * s_[j] * s_[j];
       (diagonal < 0.0 ? quadratic_lo : quadratic_hi) += diagonal;
       for (int k = j + 1; k < 3; ++k) {
-        const double mixed = std::abs(g2_[j][k]) / g_ * s_[j] * s_[k];
+        const double mixed = std::abs(g2_[kSecond[j][k]]) / g_ * s_[j] * s_[k];
         quadratic_lo -= mixed;
         quadratic_hi += mixed;
       }
@@ -243,8 +255,13 @@ Range LocalModel::View::value() const {
   }
   const double rounding = model_.relative_error_ + 1e-15 * size;
   hi += rounding;
-  // Atoms left out add up to tail_ to phi / c, which raises its logarithm by no more than tail_ where phi > c.
-  if (model_.tail_ > 0.0) hi = hi > 0.0 ? hi + model_.tail_ : std::log(std::exp(hi) + model_.tail_) + 1e-15;
+  // Atoms left out add up to tail_ to phi / c, which raises its logarithm by no more than tail_ where phi > c, and by no
+  // more than tail_ / p where phi > p c.
+  if (model_.tail_ > 0.0) {
+    hi = hi > 0.0      ? hi + model_.tail_
+         : hi > -0.125 ? hi + 1.134 * model_.tail_
+                       : std::log(std::exp(hi) + model_.tail_) + 1e-15;
+  }
   return {lo - rounding, hi};
 }
 
@@ -264,11 +281,13 @@ Range LocalModel::View::slope(int axis) const {
   double linear = 0.0, quadratic = 0.0;
   for (int l = 0; l < 3; ++l) {
     const double same_l = l == axis ? 1.0 : 0.0;
-    linear += std::abs(g2_[axis][l] - 2.0 * d * (same_l * g_ + c * g1_[l])) * s_[l];
-    for (int m = 0; m < 3; ++m) {
+    linear += std::abs(g2_[kSecond[axis][l]] - 2.0 * d * (same_l * g_ + c * g1_[l])) * s_[l];
+    for (int m = l; m < 3; ++m) {
       const double same_m = m == axis ? 1.0 : 0.0;
-      quadratic += std::abs(model_.third_[kThird[axis][l][m]] -
-                            2.0 * d * (same_l * g1_[m] + same_m * g1_[l] + c * g2_[l][m])) *
+      const double both = l == m ? 1.0 : 2.0;
+      quadratic += both *
+                   std::abs(model_.third_[kThird[axis][l][m]] -
+                            2.0 * d * (same_l * g1_[m] + same_m * g1_[l] + c * g2_[kSecond[l][m]])) *
                    s_[l] * s_[m];
     }
   }

@@ -52,6 +52,7 @@ class LocalModel {
   double remainder_ = 0.0;     ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
   Vec3 remainder_slope_{};     ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
   double growth_ = 1.0;        ///< E[exp(z)] >= g anywhere in the box
+  double log_growth_ = 0.0;
   double slope_size_ = 0.0;    ///< no |y| is larger (1/A)
   double relative_error_ = 0.0;
   double tail_ = 0.0;
@@ -81,7 +82,7 @@ class LocalModel::View {
   Vec3 s_{};            ///< its half widths (A)
   double g_ = 1.0;      ///< g and its derivatives at t_
   Vec3 g1_{};
-  double g2_[3][3]{};
+  double g2_[6]{};      ///< xx yy zz xy xz yz
   double sum1_ = 0.0, sum2_ = 0.0, sum3_ = 0.0;  ///< sums |derivative| s^order over all index tuples
   double remainder_ = 0.0;
   Vec3 remainder_slope_{};

@@ -55,8 +55,8 @@ class NearAtoms {
 /// Log-weight, relative to c, below which an atom is left out: e^-23 = 1e-10.
 inline constexpr double kTruncation = 23.0;
 
-/// The same for proofs, where the atoms left out are part of the bounds: e^-13 = 2e-6.
-inline constexpr double kProofTruncation = 13.0;
+/// The same for proofs, where the atoms left out are part of the bounds: e^-12 = 6e-6.
+inline constexpr double kProofTruncation = 12.0;
 
 /// The same where little things matter, in small cells near singular places: e^-40 = 4e-18.
 inline constexpr double kFineTruncation = 40.0;

@@ -14,6 +14,7 @@ namespace {
 struct WeightSums {
   double total = 0.0;
   double ux = 0.0, uy = 0.0, uz = 0.0;
+  double xx = 0.0, xy = 0.0, xz = 0.0;   ///< of the products of the offsets with that along an axis
 };
 
 GAUSSMESH_SIMD_CLONES
@@ -31,9 +32,9 @@ double largest_of(const double* x, const double* y, const double* z, const doubl
 
 GAUSSMESH_SIMD_CLONES
 WeightSums weight_sums(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
-                       double px, double py, double pz, double shift) {
-  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
-#pragma omp simd reduction(+ : total, sx, sy, sz)
+                       double px, double py, double pz, double shift, const double* along, double p_along) {
+  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0, sxx = 0.0, sxy = 0.0, sxz = 0.0;
+#pragma omp simd reduction(+ : total, sx, sy, sz, sxx, sxy, sxz)
   for (std::size_t i = 0; i < n; ++i) {
     const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
     const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz) - shift);
@@ -41,8 +42,12 @@ WeightSums weight_sums(const double* x, const double* y, const double* z, const 
     sx += a * ux;
     sy += a * uy;
     sz += a * uz;
+    const double au = a * (p_along - along[i]);
+    sxx += au * ux;
+    sxy += au * uy;
+    sxz += au * uz;
   }
-  return {total, sx, sy, sz};
+  return {total, sx, sy, sz, sxx, sxy, sxz};
 }
 
 }  // namespace
@@ -58,15 +63,21 @@ double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& p) {
 }
 
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
+  return evaluate_along(atoms, decay, p, 0).point;
+}
+
+LineValue evaluate_along(const NearAtoms& atoms, double decay, const Vec3& p, int axis) {
   const std::size_t n = atoms.size();
-  PointValue result;
+  LineValue line;
+  PointValue& result = line.point;
   if (n == 0) {
     result.value = -700.0;
-    return result;
+    return line;
   }
+  const double* along = axis == 0 ? atoms.x.data() : axis == 1 ? atoms.y.data() : atoms.z.data();
   const auto sums_with = [&](double shift) {
-    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0], p[1], p[2],
-                       shift);
+    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0], p[1],
+                       p[2], shift, along, p[axis]);
   };
   double shift = 0.0;
   WeightSums s = sums_with(shift);
@@ -83,7 +94,11 @@ PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
   const double exponent_size = 2.0 * atoms.w_size + std::abs(result.value) + kFineTruncation;
   const double log_error = 4e-16 * (std::abs(result.value) + 1.0);
   result.error = 1.001 * weight_error(exponent_size, n) + log_error;
-  return result;
+  const double mean = (axis == 0 ? s.ux : axis == 1 ? s.uy : s.uz) / s.total;
+  const double f = 4.0 * decay * decay / s.total;
+  line.gradient_slope = {f * (s.xx - mean * s.ux), f * (s.xy - mean * s.uy), f * (s.xz - mean * s.uz)};
+  line.gradient_slope[axis] -= 2.0 * decay;
+  return line;
 }
 
 Side side_of(const PointValue& value, const NearAtoms& atoms) {

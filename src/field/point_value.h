@@ -22,6 +22,13 @@ Side side_of(const PointValue& value, const NearAtoms& atoms);
 /// Cost: one exponential per atom, some 100 ns near a protein.
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& point);
 
+/// The same with the derivatives of the gradient along an axis.
+struct LineValue {
+  PointValue point;
+  Vec3 gradient_slope{};   ///< 1/A^2
+};
+LineValue evaluate_along(const NearAtoms& atoms, double decay, const Vec3& point, int axis);
+
 /// Largest exponent w_i - d |p - x_i|^2; there is an atom.
 double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& point);
 

@@ -279,7 +279,7 @@ int PatchTriangulator::lift(const PlanePoint& at) {
   const bool inside_lo = is_inside(field_, atoms_, model, start);
   if (inside_lo == is_inside(field_, atoms_, model, end)) return -1;
   const LineRoot root = refine_root(atoms_, decay, start, axis_, start[axis_], end[axis_], inside_lo,
-                                    0.5 * (start[axis_] + end[axis_]), 0.0);
+                                    0.5 * (start[axis_] + end[axis_]));
   p[axis_] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis_] + 1, hi_[axis_] - 1);
   LoopVertex v;
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());

@@ -78,7 +78,7 @@ class BrickTracer {
     const FineIndex lo = brick_origin(store_.bricks()[place.brick].index);
     const std::int64_t size = kBrickCells * kFinePerCell;
     field_.collect_near(lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size}), atoms_, kFineTruncation);
-    tracer_.take_atoms_from(&atoms_);
+    tracer_.take_atoms_from(atoms_, kProofTruncation);
     atoms_loaded_ = true;
   }
 
@@ -126,12 +126,7 @@ class CellPatcher {
         triangulator_(field),
         fold_triangulator_(field) {}
 
-  struct Result {
-    std::vector<Triangle> triangles;
-    std::vector<SurfacePoint> points;
-    std::size_t fold_cells = 0;
-    std::vector<CellKey> failed;
-  };
+  using Result = PatchedCells;
 
   void patch_cell(const CellStore::Place& place, Result& result) {
     const SurfaceCell& cell = store_.cell(place);
@@ -205,6 +200,21 @@ std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLatt
 /// Leaves that make one unit of parallel work.
 constexpr std::size_t kLeavesPerTask = 64;
 
+std::vector<std::uint32_t> flags_of(const Brick& brick) {
+  std::vector<std::uint32_t> state;
+  state.reserve(brick.cells.size());
+  for (const SurfaceCell& cell : brick.cells) {
+    std::uint32_t flags = cell.divided_faces;
+    for (const std::uint8_t axes : cell.fold_axes) flags = flags << 8 | axes;
+    state.push_back(flags);
+  }
+  return state;
+}
+
+bool has_divided_faces(const Brick& brick) {
+  return std::any_of(brick.cells.begin(), brick.cells.end(), [](const SurfaceCell& c) { return c.divided_faces != 0; });
+}
+
 }  // namespace
 
 LevelZeroTracer::LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store)
@@ -212,17 +222,15 @@ LevelZeroTracer::LevelZeroTracer(const GaussianField& field, const Lattice& latt
 
 void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
   std::vector<Brick>& bricks = store_.bricks();
-  parallel_for(bricks.size(), threads, [&](std::size_t i) {
-    std::vector<std::uint32_t> state;
-    for (const SurfaceCell& cell : bricks[i].cells) {
-      std::uint32_t flags = cell.divided_faces;
-      for (const std::uint8_t axes : cell.fold_axes) flags = flags << 8 | axes;
-      state.push_back(flags);
-    }
-    if (state == traced_[i].state && traced_[i].is_done) return;
-    traced_[i] = BrickTracer(field_, lattice_, store_).trace(static_cast<std::uint32_t>(i));
-    traced_[i].state = std::move(state);
-    traced_[i].is_done = true;
+  parallel_for_workers(bricks.size(), threads, 1, [&] {
+    return [&, tracer = BrickTracer(field_, lattice_, store_)](std::size_t i) mutable {
+      std::vector<std::uint32_t> state = flags_of(bricks[i]);
+      traced_[i].is_new = !traced_[i].is_done || state != traced_[i].state;
+      if (!traced_[i].is_new) return;
+      traced_[i] = tracer.trace(static_cast<std::uint32_t>(i));
+      traced_[i].state = std::move(state);
+      traced_[i].is_new = traced_[i].is_done = true;
+    };
   });
   std::uint32_t next_vertex = first_vertex;
   for (std::size_t i = 0; i < bricks.size(); ++i) {
@@ -230,6 +238,7 @@ void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
     const TracedBrick& traced = traced_[i];
     brick.links = traced.links;
     brick.face_points = traced.points;
+    brick.first_face_vertex = next_vertex;
     for (Link& link : brick.links) {
       for (std::uint32_t* v : {&link.from, &link.to}) *v = *v >= kLocalVertex ? next_vertex + (*v - kLocalVertex) : *v;
     }
@@ -243,40 +252,87 @@ void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
   }
 }
 
-PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
-                               const SplitLattice& split, const FoldCellMap& folds, int threads) {
+bool CellTriangulator::must_be_redone(const LevelZeroTracer& faces, std::uint32_t brick) const {
+  // The faces of a cell are its own low ones and those of the next cell along each axis.
+  const auto has_changed = [&](std::uint32_t b) { return faces.is_new(b) || has_divided_faces(store_.bricks()[b]); };
+  if (has_changed(brick)) return true;
+  const BrickIndex index = store_.bricks()[brick].index;
+  for (int axis = 0; axis < 3; ++axis) {
+    BrickIndex next = index;
+    ++next[axis];
+    if (const auto b = store_.find_brick(next); b && has_changed(*b)) return true;
+  }
+  return false;
+}
+
+void CellTriangulator::renumber_face_points(PatchedCells& cells) const {
+  const std::uint32_t first = store_.root_vertices();
+  for (Triangle& t : cells.triangles) {
+    for (std::uint32_t& v : t) {
+      if (v < first || v >= kLocalVertex) continue;
+      const auto brick = std::upper_bound(face_vertices_.begin(), face_vertices_.end(), v) - face_vertices_.begin() - 1;
+      v += store_.bricks()[brick].first_face_vertex - face_vertices_[brick];
+    }
+  }
+}
+
+PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
+                                           const LevelZeroTracer& faces, int threads) {
   PatchOutcome outcome;
   std::vector<SurfacePoint>& points = outcome.surface.points;
-  points = collect_points(store, split);
+  points = collect_points(store_, split);
 
-  const std::size_t bricks = store.bricks().size();
+  const std::size_t bricks = store_.bricks().size();
   const std::size_t leaf_tasks = (split.leaves().size() + kLeavesPerTask - 1) / kLeavesPerTask;
-  std::vector<CellPatcher::Result> results(bricks + leaf_tasks);
-  parallel_for(results.size(), threads, [&](std::size_t task) {
-    CellPatcher patcher(field, lattice, store, split, folds, points);
-    if (task < bricks) {
-      const auto cells = static_cast<std::uint32_t>(store.bricks()[task].cells.size());
-      for (std::uint32_t i = 0; i < cells; ++i) {
-        patcher.patch_cell({static_cast<std::uint32_t>(task), i}, results[task]);
+  const bool is_first = patched_.empty();
+  patched_.resize(bricks);
+  patched_.resize(bricks + leaf_tasks);
+  parallel_for_workers(patched_.size(), threads, 1, [&] {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, points)](std::size_t task) mutable {
+      PatchedCells& result = patched_[task];
+      if (task < bricks) {
+        const auto brick = static_cast<std::uint32_t>(task);
+        if (!is_first && result.failed.empty() && !must_be_redone(faces, brick)) return renumber_face_points(result);
+        result = {};
+        const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
+        for (std::uint32_t i = 0; i < cells; ++i) patcher.patch_cell({brick, i}, result);
+      } else {
+        result = {};
+        const std::size_t first = (task - bricks) * kLeavesPerTask;
+        const std::size_t last = std::min(first + kLeavesPerTask, split.leaves().size());
+        for (std::size_t i = first; i < last; ++i) patcher.patch_leaf(split.leaves()[i], result);
       }
-    } else {
-      const std::size_t first = (task - bricks) * kLeavesPerTask;
-      const std::size_t last = std::min(first + kLeavesPerTask, split.leaves().size());
-      for (std::size_t i = first; i < last; ++i) patcher.patch_leaf(split.leaves()[i], results[task]);
-    }
+    };
   });
-  for (CellPatcher::Result& result : results) {
-    const auto base = static_cast<std::uint32_t>(points.size());
-    for (Triangle t : result.triangles) {
-      for (std::uint32_t& v : t) v = v >= kLocalVertex ? base + (v - kLocalVertex) : v;
-      outcome.surface.triangles.push_back(t);
-    }
-    points.insert(points.end(), result.points.begin(), result.points.end());
-    outcome.fold_cells += result.fold_cells;
-    outcome.failed.insert(outcome.failed.end(), result.failed.begin(), result.failed.end());
-    result = {};
+  face_vertices_.clear();
+  for (const Brick& brick : store_.bricks()) face_vertices_.push_back(brick.first_face_vertex);
+  for (const PatchedCells& cells : patched_) {
+    outcome.fold_cells += cells.fold_cells;
+    outcome.failed.insert(outcome.failed.end(), cells.failed.begin(), cells.failed.end());
   }
+  if (outcome.failed.empty()) join(outcome.surface, threads);
   return outcome;
+}
+
+void CellTriangulator::join(SurfaceMesh& surface, int threads) {
+  std::vector<std::size_t> first_triangle{0}, first_point{surface.points.size()};
+  for (const PatchedCells& cells : patched_) {
+    first_triangle.push_back(first_triangle.back() + cells.triangles.size());
+    first_point.push_back(first_point.back() + cells.points.size());
+  }
+  surface.triangles.resize(first_triangle.back());
+  surface.points.resize(first_point.back());
+  parallel_for(patched_.size(), threads, [&](std::size_t i) {
+    PatchedCells& cells = patched_[i];
+    const auto base = static_cast<std::uint32_t>(first_point[i]);
+    std::size_t at = first_triangle[i];
+    for (Triangle t : cells.triangles) {
+      for (std::uint32_t& v : t) v = v >= kLocalVertex ? base + (v - kLocalVertex) : v;
+      surface.triangles[at++] = t;
+    }
+    std::copy(cells.points.begin(), cells.points.end(), surface.points.begin() + static_cast<std::ptrdiff_t>(base));
+    cells = {};
+  });
 }
 
 }  // namespace gaussmesh

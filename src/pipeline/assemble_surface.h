@@ -17,6 +17,7 @@ struct TracedBrick {
   std::vector<std::array<std::uint8_t, 3>> counts;   ///< links by cell and face
   std::vector<std::uint32_t> state;                  ///< what was asked of the faces, by cell
   bool is_done = false;
+  bool is_new = false;                               ///< not what it was in the round before
 };
 
 /// Follows the curves on the faces of level 0, and again where smaller cells have since taken faces over.
@@ -26,6 +27,9 @@ class LevelZeroTracer {
 
   /// Fills `links` and `face_points` of the bricks; vertices inside faces are numbered from `first_vertex` on.
   void trace(std::uint32_t first_vertex, int threads);
+
+  /// Whether the last call followed the curves of a brick again.
+  bool is_new(std::uint32_t brick) const { return traced_[brick].is_new; }
 
  private:
   const GaussianField& field_;
@@ -41,8 +45,34 @@ struct PatchOutcome {
   std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };
 
-/// Makes loops of the curves round every cell and triangles of the loops. All curves have been traced.
-PatchOutcome triangulate_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
-                               const SplitLattice& split, const FoldCellMap& folds, int threads);
+/// Triangles of the cells of one brick, or of some leaves. Vertices inside cells are numbered from kLocalVertex on.
+struct PatchedCells {
+  std::vector<Triangle> triangles;
+  std::vector<SurfacePoint> points;
+  std::size_t fold_cells = 0;
+  std::vector<CellKey> failed;
+};
+
+/// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
+class CellTriangulator {
+ public:
+  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store)
+      : field_(field), lattice_(lattice), store_(store) {}
+
+  /// All curves have been traced. When no cell failed, the surface is complete, and this is the last call.
+  PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const LevelZeroTracer& faces,
+                           int threads);
+
+ private:
+  bool must_be_redone(const LevelZeroTracer& faces, std::uint32_t brick) const;
+  void renumber_face_points(PatchedCells& cells) const;
+  void join(SurfaceMesh& surface, int threads);
+
+  const GaussianField& field_;
+  const Lattice& lattice_;
+  const CellStore& store_;
+  std::vector<PatchedCells> patched_;           ///< by brick, then leaves
+  std::vector<std::uint32_t> face_vertices_;    ///< first_face_vertex of the bricks, as numbered in `patched_`
+};
 
 }  // namespace gaussmesh

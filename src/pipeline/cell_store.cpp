@@ -18,16 +18,18 @@ class BrickBuilder {
   Brick build(const BrickIndex& index) {
     Brick brick;
     brick.index = index;
+    brick.boxes_by_level = walker_.boxes_by_level();
     walker_.walk(index, [&](const BrickWalker::Cell& cell) { add_cell(brick, cell); });
     std::sort(brick.cells.begin(), brick.cells.end(),
               [](const SurfaceCell& a, const SurfaceCell& b) { return a.local < b.local; });
     for (const SurfaceCell& cell : brick.cells) brick.occupied[cell.local / 64] |= 1ull << (cell.local % 64);
+    for (std::size_t i = 0; i < brick.boxes_by_level.size(); ++i) {
+      brick.boxes_by_level[i] = walker_.boxes_by_level()[i] - brick.boxes_by_level[i];
+    }
     brick.cells.shrink_to_fit();
     brick.roots.shrink_to_fit();
     return brick;
   }
-
-  std::vector<std::size_t> boxes_by_level() const { return walker_.boxes_by_level(); }
 
  private:
   void add_cell(Brick& brick, const BrickWalker::Cell& found) {
@@ -79,10 +81,8 @@ std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice);
   std::vector<Brick> all(found.size());
-  parallel_for(found.size(), threads, [&](std::size_t i) {
-    BrickBuilder builder(field, lattice);
-    all[i] = builder.build(found[i]);
-    all[i].boxes_by_level = builder.boxes_by_level();
+  parallel_for_workers(found.size(), threads, 1, [&] {
+    return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };
   });
   for (Brick& brick : all) {
     if (brick.cells.empty()) continue;
@@ -122,6 +122,11 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
   unsigned rank = static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)));
   for (unsigned w = 0; w < local / 64; ++w) rank += static_cast<unsigned>(std::popcount(brick.occupied[w]));
   return Place{number, rank};
+}
+
+std::optional<std::uint32_t> CellStore::find_brick(const BrickIndex& index) const {
+  const auto it = by_index_.find(index);
+  return it == by_index_.end() ? std::nullopt : std::optional(it->second);
 }
 
 FineIndex CellStore::lowest_corner(const Place& place) const {

@@ -36,6 +36,7 @@ struct Brick {
   std::vector<Link> links;
   std::vector<SurfacePoint> face_points;     ///< vertices inside faces
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
+  std::uint32_t first_face_vertex = 0;       ///< number of the first of `face_points`
   std::vector<std::size_t> boxes_by_level;
 };
 
@@ -61,6 +62,8 @@ class CellStore {
   };
   /// The cell with lowest corner `lo`, if the surface may cross it. `hint`: a brick to look in first.
   std::optional<Place> find(const FineIndex& lo, std::uint32_t hint = 0) const;
+
+  std::optional<std::uint32_t> find_brick(const BrickIndex& index) const;
 
   SurfaceCell& cell(const Place& place) { return bricks_[place.brick].cells[place.cell]; }
   const SurfaceCell& cell(const Place& place) const { return bricks_[place.brick].cells[place.cell]; }

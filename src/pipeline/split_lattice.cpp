@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/parallel.h"
+#include "pipeline/cell_atoms.h"
 
 namespace gaussmesh {
 namespace {
@@ -16,6 +17,9 @@ int level_of_plane(std::int64_t n) {
 std::int64_t round_down(std::int64_t n, std::int64_t size) {
   return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
 }
+
+/// Edges or faces that a thread takes at a time.
+constexpr int kChunk = 32;
 
 /// Axes along which the components of a cell are cut.
 unsigned fold_axes_of(const FoldCell& cell) {
@@ -43,7 +47,9 @@ SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, C
   std::vector<Branch> branches(roots.size());
   parallel_for(roots.size(), threads, [&](std::size_t i) {
     CellProver prover(field_.decay(), kProofDepth);
-    split(roots[i], forced, prover, branches[i]);
+    NearAtoms atoms;
+    field_.collect_near(cell_box(lattice_, roots[i]), atoms, kFineTruncation);
+    split(roots[i], atoms, forced, prover, branches[i]);
   });
   for (const Branch& branch : branches) {
     leaves_.insert(leaves_.end(), branch.leaves.begin(), branch.leaves.end());
@@ -99,10 +105,11 @@ std::vector<SurfacePoint> SplitLattice::lattice_points() const {
   return points;
 }
 
-void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const {
+void SplitLattice::split(const CellKey& key, const NearAtoms& around, const CellSet& forced, CellProver& prover,
+                         Branch& branch) const {
   branch.split.push_back(key);
   NearAtoms atoms;
-  field_.collect_near(cell_box(lattice_, key), atoms, kFineTruncation);
+  atoms.restrict_from(around, cell_box(lattice_, key), field_.decay(), kFineTruncation);
   for (int c = 0; c < 8; ++c) {
     const CellKey child = child_cell(key, c);
     const Box box = cell_box(lattice_, child);
@@ -114,7 +121,7 @@ void SplitLattice::split(const CellKey& key, const CellSet& forced, CellProver& 
     } else if (!certified && !forced.contains(child) && folds_.contains(child)) {
       branch.leaves.push_back({child, 0, 0});
     } else if (child.level < kMaxLevel) {
-      split(child, forced, prover, branch);
+      split(child, atoms, forced, prover, branch);
     } else {
       Vec3 middle;
       for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (box.lo[k] + box.hi[k]);
@@ -148,16 +155,17 @@ void SplitLattice::find_edge_roots(int threads) {
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 
   std::vector<std::vector<EdgeRoot>> found(edges_.size());
-  parallel_for(edges_.size(), threads, [&](std::size_t i) {
-    const LatticeKey& edge = edges_[i];
-    const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
-    const Box box = lattice_box(lattice_, edge.lo, end);
-    NearAtoms atoms;
-    field_.collect_near(box, atoms, kFineTruncation);
-    EdgeRootFinder finder(field_, lattice_);
-    const auto roots = finder.find(atoms, LocalModel(atoms, field_.decay(), box), edge.axis, lattice_.point(edge.lo),
-                                   lattice_.plane(edge.axis, end[edge.axis]));
-    found[i].assign(roots.begin(), roots.end());
+  parallel_for_workers(edges_.size(), threads, kChunk, [&] {
+    return [&, cells = CellAtoms(field_, lattice_), finder = EdgeRootFinder(field_, lattice_),
+            atoms = NearAtoms()](std::size_t i) mutable {
+      const LatticeKey& edge = edges_[i];
+      const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
+      const Box box = lattice_box(lattice_, edge.lo, end);
+      atoms.restrict_from(cells.around(edge.lo), box, field_.decay(), kFineTruncation);
+      const auto roots = finder.find(atoms, LocalModel(atoms, field_.decay(), box), edge.axis, lattice_.point(edge.lo),
+                                     lattice_.plane(edge.axis, end[edge.axis]));
+      found[i].assign(roots.begin(), roots.end());
+    };
   });
   edge_roots_.resize(edges_.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -223,14 +231,16 @@ void SplitLattice::trace_faces(int threads) {
   faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
 
   std::vector<FaceCurves> curves(faces_.size());
-  parallel_for(faces_.size(), threads, [&](std::size_t i) {
-    const LatticeKey& face = faces_[i];
-    const std::int64_t size = fine_size(face.level);
-    const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
-    const std::vector<FaceRoot> roots = face_roots(face);
-    FaceTracer tracer(field_, lattice_);
-    curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots,
-                             fold_axes(face));
+  parallel_for_workers(faces_.size(), threads, kChunk, [&] {
+    return [&, cells = CellAtoms(field_, lattice_), tracer = FaceTracer(field_, lattice_)](std::size_t i) mutable {
+      const LatticeKey& face = faces_[i];
+      const std::int64_t size = fine_size(face.level);
+      const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
+      const std::vector<FaceRoot> roots = face_roots(face);
+      tracer.take_atoms_from(cells.around(face.lo), kFineTruncation);
+      curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots,
+                               fold_axes(face));
+    };
   });
   face_links_.resize(faces_.size());
   for (std::size_t i = 0; i < faces_.size(); ++i) {

@@ -71,7 +71,8 @@ class SplitLattice {
     std::vector<UncertifiedPlace> uncertified;
   };
 
-  void split(const CellKey& key, const CellSet& forced, CellProver& prover, Branch& branch) const;
+  void split(const CellKey& key, const NearAtoms& around, const CellSet& forced, CellProver& prover,
+             Branch& branch) const;
   void mark_level_zero(const std::vector<CellKey>& roots);
   unsigned fold_axes(const LatticeKey& face) const;
   void find_edge_roots(int threads);

@@ -63,6 +63,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int thr
     finished("folds");
   }
   LevelZeroTracer faces(field, lattice, store);
+  CellTriangulator cells(field, lattice, store);
   CellSet forced;
   for (int round = 0; round < kMaxRounds; ++round) {
     SplitLattice split(field, lattice, store, folds, forced, threads);
@@ -74,7 +75,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int thr
     split.trace_faces(threads);
     faces.trace(split.next_vertex(), threads);
     finished("curves");
-    PatchOutcome outcome = triangulate_cells(field, lattice, store, split, folds, threads);
+    PatchOutcome outcome = cells.triangulate(split, folds, faces, threads);
     finished("patches");
     if (outcome.failed.empty()) {
       result.surface = std::move(outcome.surface);

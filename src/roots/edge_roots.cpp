@@ -16,8 +16,8 @@ constexpr double kClosestRoots = 1e-8;
 /// Log-weight below which an atom does not matter next to rounding: e^-60 = 1e-26.
 constexpr double kNoTruncation = 60.0;
 
-/// Newton stops at steps below this (A), a hundredth of the unit that coordinates are rounded to.
-constexpr double kRootTolerance = 1e-11;
+/// Roots are found to this (A), a tenth of the unit that coordinates are rounded to.
+constexpr double kRootTolerance = 1e-10;
 
 /// Zero nearest to `x` of the parabola f + f1 s + f2 s^2 / 2; NaN where it has none.
 double parabola_zero(double x, double f, double f1, double f2) {
@@ -48,20 +48,19 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 }
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
-                     bool inside_a, double guess, double curvature) {
-  // Second derivatives of log phi are 4 d^2 times a variance of atom positions, less 2 d; the variance is at most a
-  // quarter of the squared range of the positions.
+                     bool inside_a, double guess) {
+  // The third derivative of log phi is -8 d^3 times the third central moment of the atoms' positions, which is at most
+  // the cube of their range over 6 sqrt(3).
   const double reach = atoms.size() > 0 ? decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
-  const double steepest = 2.0 * decay + reach * reach;
-  curvature = std::clamp(std::isfinite(curvature) ? curvature : 0.0, -2.0 * decay, steepest);
+  const double third = 0.77 * reach * reach * reach;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
   double width = b - a;
   Vec3 point = start;
   LineRoot root;
   for (int iteration = 0; iteration < 200; ++iteration) {
     point[axis] = x;
-    const PointValue value = evaluate(atoms, decay, point);
-    const double slope = value.gradient[axis];
+    const auto [value, gradient_slope] = evaluate_along(atoms, decay, point, axis);
+    const double slope = value.gradient[axis], curvature = gradient_slope[axis];
     root = {x, value.gradient};
     ((value.value > 0.0) == inside_a ? a : b) = x;
     double next = parabola_zero(x, value.value, slope, curvature);
@@ -69,8 +68,13 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     if (!(next >= a && next <= b)) next = 0.5 * (a + b);
     const double step = std::abs(next - x);
     root.position = next;
-    // The parabola misses by the error of the curvature times half the step squared, over the slope.
-    if (step * step * steepest < kRootTolerance * std::abs(slope) || b - a < kRootTolerance) return root;
+    for (int k = 0; k < 3; ++k) root.gradient[k] += gradient_slope[k] * (next - x);
+    // The parabola misses by the third derivative times a sixth of the step cubed, over the slope, which itself changes
+    // by no more than half over the step. The gradient, corrected to first order, is good to 1e-7 then.
+    const bool is_near = step * step * step * third < 3.0 * kRootTolerance * std::abs(slope) &&
+                         step * (std::abs(curvature) + third * step) < 0.5 * std::abs(slope) &&
+                         step * step * decay < 1e-8;
+    if (is_near || b - a < kRootTolerance) return root;
     if (iteration % 4 == 3) {  // four steps that have not even halved the bracket are no progress
       if (b - a > 0.5 * width) next = 0.5 * (a + b);
       width = b - a;
@@ -151,12 +155,16 @@ void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
 }
 
 void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
-  const double middle = 0.5 * (s.a + s.b);
-  const Vec3 p = at(middle);
-  const LocalModel::View view = model.over({p, p});
-  const double curvature = view.middle_curvature(axis_);
-  const double guess = parabola_zero(middle, view.middle_value(), view.middle_gradient()[axis_], curvature);
-  const LineRoot root = refine_root(*atoms_, field_.decay(), p, axis_, s.a, s.b, s.inside_a, guess, curvature);
+  // Two steps of the model's own root give a guess that mostly needs one sum over the atoms.
+  double guess = 0.5 * (s.a + s.b);
+  for (int i = 0; i < 2; ++i) {
+    const LocalModel::View view = model.over({at(guess), at(guess)});
+    const double next =
+        parabola_zero(guess, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_));
+    if (!(next > s.a && next < s.b)) break;
+    guess = next;
+  }
+  const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;
   result.point.position[axis_] = snap(root.position, lo_[axis_], hi_);

@@ -82,7 +82,7 @@ struct LineRoot {
   Vec3 gradient{};
 };
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
-                     bool inside_a, double guess, double curvature);
+                     bool inside_a, double guess);
 
 /// -gradient / |gradient|.
 std::array<float, 3> outward_normal(const Vec3& gradient);

@@ -45,11 +45,11 @@ void FaceTracer::load_atoms() {
 
 const NearAtoms& FaceTracer::proof_atoms_of(const Rect& rect) {
   // Parts of a face can be so small that atoms left out decide.
-  if (!parent_ || rect.lo != face_.lo || rect.hi != face_.hi) {
+  if (proof_cut_ == kFineTruncation || rect.lo != face_.lo || rect.hi != face_.hi) {
     load_atoms();
     return atoms_;
   }
-  collect_atoms(proof_atoms_, kProofTruncation);
+  collect_atoms(proof_atoms_, proof_cut_);
   return proof_atoms_;
 }
 
@@ -347,7 +347,7 @@ SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
   const bool inside_lo = is_inside(field_, atoms_, model, start);
   if (inside_lo == is_inside(field_, atoms_, model, end)) throw LatticeDegenerate(start);
   const LineRoot root = refine_root(atoms_, field_.decay(), start, along, start[along], end[along], inside_lo,
-                                    0.5 * (start[along] + end[along]), 0.0);
+                                    0.5 * (start[along] + end[along]));
   result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom),
                                              piece.rect.lo[along] + 1, piece.rect.hi[along] - 1);
   result.normal = outward_normal(root.gradient);

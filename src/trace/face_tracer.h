@@ -65,8 +65,12 @@ class FaceTracer {
       : field_(field), finder_(field, lattice) {}
 
   /// Atoms for the faces to come are taken from `parent`, collected with kFineTruncation for a box round them, which lives
-  /// as long as they are traced; nullptr: from the field.
-  void take_atoms_from(const NearAtoms* parent) { parent_ = parent; }
+  /// as long as they are traced, and not from the field. Certificates of whole faces are sought with atoms down to
+  /// e^-proof_cut.
+  void take_atoms_from(const NearAtoms& parent, double proof_cut) {
+    parent_ = &parent;
+    proof_cut_ = proof_cut;
+  }
 
   /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`
   /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of axis k
@@ -126,6 +130,7 @@ class FaceTracer {
   EdgeRootFinder finder_;
   NearAtoms atoms_, proof_atoms_;
   const NearAtoms* parent_ = nullptr;
+  double proof_cut_ = kFineTruncation;
   bool atoms_loaded_ = false;
   int axis_ = 0;
   Rect face_;
