@@ -73,11 +73,12 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-TriangleMesh to_mesh(const SurfaceMesh& surface) {
+/// Takes the triangles; the points stay.
+TriangleMesh to_mesh(SurfaceMesh& surface) {
   TriangleMesh mesh;
   mesh.vertices.reserve(surface.points.size());
   for (const SurfacePoint& p : surface.points) mesh.vertices.push_back(to_angstrom(p.position));
-  mesh.triangles = surface.triangles;
+  mesh.triangles = std::move(surface.triangles);
   return mesh;
 }
 
