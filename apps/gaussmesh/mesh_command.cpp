@@ -179,10 +179,28 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->group(surface);
 
   const std::string triangles = "Triangles";
-  program.add_option("--spacing", command.options.spacing, "size of the triangles (A, 0.01 to 1000; default 0.5)")
-      ->type_name("H")
+  CLI::Option* spacing =
+      program
+          .add_option("--spacing", command.options.spacing,
+                      "wanted mean edge of the triangles (A, 0.01 to 200, with --raw to 1000; default 0.5)")
+          ->type_name("H")
+          ->group(triangles);
+  program
+      .add_option_function<double>(
+          "--density",
+          [&command](double density) { command.options.spacing = spacing_for_density(density); },
+          "the same by vertices per A^2 (1e-6 to 1e4; --spacing 0.5 is 4.6)")
+      ->type_name("V")
+      ->check(CLI::Range(1e-6, 1e4))
+      ->excludes(spacing)
       ->group(triangles);
-  program.add_flag("--improve", command.options.improve, "make the triangles nearly equilateral (experimental)")
+  program
+      .add_option("--tolerance", command.options.tolerance,
+                  "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; default 0: "
+                  "no limit)")
+      ->type_name("T")
+      ->group(triangles);
+  program.add_flag("!--raw", command.options.improve, "leave the triangles as traced, slivers and all")
       ->group(triangles);
 
   const std::string output = "Output";

@@ -15,8 +15,8 @@ constexpr auto kPatience = 1s;  // shorter runs have no bar
 constexpr auto kRefresh = 200ms;
 
 /// The share of the work that is done when a stage ends, as measured on proteins; others leave the bar where it is.
-constexpr std::pair<const char*, double> kShares[] = {{"boxes and roots", 0.28}, {"folds", 0.36}, {"curves", 0.54},
-                                                      {"patches", 0.62},         {"mesh", 0.64},  {"verify", 1.0}};
+constexpr std::pair<const char*, double> kShares[] = {{"boxes and roots", 0.10}, {"folds", 0.14}, {"curves", 0.34},
+                                                      {"patches", 0.42},         {"improve", 0.93}, {"verify", 1.0}};
 
 }  // namespace
 

@@ -20,11 +20,15 @@ struct MeshOptions {
   double decay = 0.6;               ///< d, 1/A^2, 0.001 to 1000
   double isovalue = 1.7;            ///< c, 1e-9 to 1e9
   double spacing = 0.5;             ///< edge of the cells (A), 0.01 to 1000: the size of the triangles
-  bool improve = false;             ///< make the triangles nearly equilateral; not yet for production, see README
+  bool improve = true;              ///< make the triangles nearly equilateral; otherwise they stay as traced
+  double tolerance = 0.0;           ///< farthest that triangles are to be from the surface (A), to 1000; 0: no limit
   int threads = 0;                  ///< 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
 };
+
+/// The spacing (A) that gives about this many vertices per A^2: equilateral triangles of edge s have 2 / (sqrt(3) s^2).
+double spacing_for_density(double vertices_per_A2);
 
 /// A place where phi = c is (nearly) singular.
 struct CriticalPlace {
@@ -90,7 +94,7 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
 /// The report as JSON; lengths in A and units spelt in the keys.
 std::string report_json(const MeshReport& report);
 
-/// One line, or two: what was made and what was proved.
+/// Three lines: what was made, the shapes of the triangles, and what was proved.
 std::string report_summary(const MeshReport& report);
 
 }  // namespace gaussmesh

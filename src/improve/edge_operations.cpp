@@ -2,64 +2,40 @@
 
 #include <optional>
 
-#include "core/parallel.h"
-#include "improve/surface_projector.h"
-
 namespace gaussmesh {
 namespace {
 
 using Index = HalfEdgeMesh::Index;
 
-TriangleQuality worse(const TriangleQuality& a, const TriangleQuality& b) {
-  return {std::min(a.min_sine, b.min_sine), std::min(a.normal_cosine, b.normal_cosine)};
+double edge_length_sq(const BlockMesh& m, Index h) {
+  const Vec3 e = m.at[m.connectivity.to(h)] - m.at[m.connectivity.from(h)];
+  return dot(e, e);
 }
 
-constexpr TriangleQuality kPerfect{1.0, 1.0};
-
-/// Whether triangles may take the place of others, as far as the field goes.
-bool turn_is_allowed(const TriangleQuality& before, const TriangleQuality& after) {
-  return after.min_sine > 0.0 && after.normal_cosine >= std::min(kTurnLimit, before.normal_cosine) &&
-         after.normal_cosine > 0.0;
-}
-
-TriangleQuality quality_of(const WorkingMesh& m, Index t) {
-  const Triangle v = m.connectivity.triangle(t);
-  return triangle_quality(m, v[0], v[1], v[2]);
-}
-
-double edge_length(const WorkingMesh& m, Index h) {
-  return length(m.at[m.connectivity.to(h)] - m.at[m.connectivity.from(h)]);
-}
-
-double wanted_size(const WorkingMesh& m, Index h) {
+double wanted_size(const BlockMesh& m, Index h) {
   return 0.5 * (double(m.size[m.connectivity.from(h)]) + double(m.size[m.connectivity.to(h)]));
 }
 
 /// A flip for the valences' sake may leave angles down to 20 degrees; relaxation opens them again.
 constexpr double kLeastSineForValence = 0.34;
 
-/// Each edge once: by the half-edge with the smaller number.
-bool names_edge(const WorkingMesh& m, Index h) {
-  return m.connectivity.has_triangle(h / 3) && h < m.connectivity.twin(h);
+/// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
+bool names_edge(const BlockMesh& m, Index h) {
+  const HalfEdgeMesh& c = m.connectivity;
+  return c.has_triangle(h / 3) && c.twin(h) != HalfEdgeMesh::kNone && h < c.twin(h) &&
+         (m.is_active[c.from(h)] || m.is_active[c.to(h)]);
 }
 
 }  // namespace
 
-TriangleQuality star_quality(const WorkingMesh& mesh, std::uint32_t vertex) {
-  TriangleQuality quality = kPerfect;
-  mesh.connectivity.visit_star(vertex, [&](Index h) { quality = worse(quality, quality_of(mesh, h / 3)); });
-  return quality;
-}
-
-bool try_flip(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h) {
+bool try_flip(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h) {
   HalfEdgeMesh& c = mesh.connectivity;
-  if (!c.can_flip(h)) return false;
   const Index g = c.twin(h), s = h / 3, t = g / 3;
   const Triangle first{c.from(h), c.opposite(g), c.opposite(h)}, second{c.opposite(g), c.to(h), c.opposite(h)};
-  const TriangleQuality before = worse(quality_of(mesh, s), quality_of(mesh, t));
+  const TriangleQuality before = worse(triangle_quality(mesh, s), triangle_quality(mesh, t));
   const TriangleQuality after = worse(triangle_quality(mesh, first[0], first[1], first[2]),
                                       triangle_quality(mesh, second[0], second[1], second[2]));
-  if (!turn_is_allowed(before, after)) return false;
+  if (!turn_is_allowed(before, after) || !c.can_flip(h)) return false;
   const bool guarded = SheetGuard::is_guarded(mesh, first) || SheetGuard::is_guarded(mesh, second);
   if (guarded) {
     const auto ignored = [&](Index other) { return other == s || other == t; };
@@ -73,22 +49,23 @@ bool try_flip(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h) {
   return true;
 }
 
-bool try_collapse(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h, double longest) {
+bool try_collapse(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, double longest) {
   HalfEdgeMesh& c = mesh.connectivity;
   if (!c.can_collapse(h)) return false;
   const Index u = c.from(h), v = c.to(h), s = h / 3, t = c.twin(h) / 3;
   TriangleQuality before = kPerfect, after = kPerfect;
-  double longest_edge = 0.0;
+  double longest_sq = 0.0;
   bool guarded = false;
   c.visit_star(u, [&](Index k) {
-    before = worse(before, quality_of(mesh, k / 3));
+    before = worse(before, triangle_quality(mesh, k / 3));
     if (k / 3 == s || k / 3 == t) return;
     const Index a = c.to(k), b = c.opposite(k);
     after = worse(after, triangle_quality(mesh, v, a, b));
-    longest_edge = std::max(longest_edge, length(mesh.at[a] - mesh.at[v]));
+    const Vec3 e = mesh.at[a] - mesh.at[v];
+    longest_sq = std::max(longest_sq, dot(e, e));
     guarded = guarded || SheetGuard::is_guarded(mesh, {v, a, b});
   });
-  if (!turn_is_allowed(before, after) || longest_edge > longest) return false;
+  if (!turn_is_allowed(before, after) || longest_sq > longest * longest) return false;
   if (after.min_sine < std::min(0.2, before.min_sine)) return false;
   if (guarded) {
     const auto ignored = [&](Index other) {
@@ -107,17 +84,20 @@ bool try_collapse(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h, double 
   return true;
 }
 
-bool try_split(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h, const SurfacePoint& middle) {
+bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place& middle) {
   HalfEdgeMesh& c = mesh.connectivity;
+  if (!mesh.contains(middle.at)) return false;
   const Index g = c.twin(h), a = c.from(h), b = c.to(h), m = c.vertices(), s = h / 3, t = g / 3;
   const Triangle parts[4] = {
       {a, m, c.opposite(h)}, {m, b, c.opposite(h)}, {m, a, c.opposite(g)}, {b, m, c.opposite(g)}};
-  mesh.points.push_back(middle);
-  mesh.at.push_back(to_angstrom(middle.position));
+  mesh.at.push_back(middle.at);
+  mesh.normal.push_back(middle.normal);
   mesh.size.push_back(0.5f * (mesh.size[a] + mesh.size[b]));
+  mesh.refinement.push_back(std::min(mesh.refinement[a], mesh.refinement[b]));
+  mesh.is_active.push_back(1);
   mesh.is_guarded.push_back(mesh.is_guarded[a] | mesh.is_guarded[b] | mesh.is_guarded[c.opposite(h)] |
                             mesh.is_guarded[c.opposite(g)]);
-  const TriangleQuality before = worse(quality_of(mesh, s), quality_of(mesh, t));
+  const TriangleQuality before = worse(triangle_quality(mesh, s), triangle_quality(mesh, t));
   TriangleQuality after = kPerfect;
   for (const Triangle& p : parts) after = worse(after, triangle_quality(mesh, p[0], p[1], p[2]));
   bool allowed = turn_is_allowed(before, after);
@@ -128,9 +108,11 @@ bool try_split(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h, const Surf
     // The four parts among themselves: neighbours that fold over have turned far from the field.
   }
   if (!allowed) {
-    mesh.points.pop_back();
     mesh.at.pop_back();
+    mesh.normal.pop_back();
     mesh.size.pop_back();
+    mesh.refinement.pop_back();
+    mesh.is_active.pop_back();
     mesh.is_guarded.pop_back();
     return false;
   }
@@ -139,49 +121,63 @@ bool try_split(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t h, const Surf
   return true;
 }
 
-std::size_t split_long_edges(WorkingMesh& mesh, SheetGuard& guard, const GaussianField& field, double factor,
-                             int threads) {
-  struct Candidate {
-    Index from, to, half_edge;
-    std::optional<SurfacePoint> middle;
-  };
-  std::vector<Candidate> candidates;
+bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& place, double least_sine) {
+  if (!mesh.contains(place.at)) return false;
   const HalfEdgeMesh& c = mesh.connectivity;
-  for (Index h = 0; h < c.half_edges(); ++h) {
-    if (!names_edge(mesh, h) || edge_length(mesh, h) <= factor * wanted_size(mesh, h)) continue;
-    candidates.push_back({c.from(h), c.to(h), h, {}});
+  const Place old{mesh.at[v], mesh.normal[v]};
+  mesh.put(v, place);
+  const TriangleQuality after = star_quality(mesh, v);
+  bool allowed = after.min_sine >= least_sine && after.normal_cosine >= kTurnLimit;
+  if (!allowed) {   // as good as before is good enough
+    mesh.put(v, old);
+    const TriangleQuality before = star_quality(mesh, v);
+    allowed = after.min_sine >= std::min(least_sine, before.min_sine) && turn_is_allowed(before, after);
+    mesh.put(v, place);
   }
-  constexpr std::size_t kBlock = 256;
-  parallel_for((candidates.size() + kBlock - 1) / kBlock, threads, [&](std::size_t block) {
-    SurfaceProjector projector(field);
-    for (std::size_t i = block * kBlock; i < std::min(candidates.size(), (block + 1) * kBlock); ++i) {
-      const Vec3 a = mesh.at[candidates[i].from], b = mesh.at[candidates[i].to];
-      candidates[i].middle = projector.project(0.5 * (a + b), 0.5 * length(b - a));
-    }
-  });
+  if (allowed && mesh.is_guarded[v]) {
+    const auto ignored = [&](Index other) {
+      const Triangle w = c.triangle(other);
+      return w[0] == v || w[1] == v || w[2] == v;
+    };
+    c.visit_star(v, [&](Index h) { allowed = allowed && !guard.may_meet(mesh, c.triangle(h / 3), ignored); });
+  }
+  if (!allowed) {
+    mesh.put(v, old);
+    return false;
+  }
+  c.visit_star(v, [&](Index h) { guard.insert(mesh, h / 3); });
+  return true;
+}
+
+std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  const Index count = c.half_edges();   // new edges have their turn in the next round
   std::size_t made = 0;
-  for (const Candidate& candidate : candidates) {
-    const Index h = candidate.half_edge;
-    if (c.from(h) != candidate.from || c.to(h) != candidate.to || !candidate.middle) continue;
-    made += try_split(mesh, guard, h, *candidate.middle);
+  for (Index h = 0; h < count; ++h) {
+    if (!names_edge(mesh, h)) continue;
+    const double most = factor * wanted_size(mesh, h), length_sq = edge_length_sq(mesh, h);
+    if (length_sq <= most * most) continue;
+    const std::optional<Place> middle =
+        field.project(0.5 * (mesh.at[c.from(h)] + mesh.at[c.to(h)]), 0.5 * std::sqrt(length_sq));
+    if (middle) made += try_split(mesh, guard, h, *middle);
   }
   return made;
 }
 
-std::size_t collapse_short_edges(WorkingMesh& mesh, SheetGuard& guard, double factor) {
+std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double factor) {
   constexpr double kLongest = 1.5;   // times the wanted size: a collapse must not make edges to be split again
   const HalfEdgeMesh& c = mesh.connectivity;
   std::size_t made = 0;
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!names_edge(mesh, h)) continue;
     const double size = wanted_size(mesh, h);
-    if (edge_length(mesh, h) >= factor * size) continue;
+    if (edge_length_sq(mesh, h) >= factor * size * factor * size) continue;
     if (try_collapse(mesh, guard, h, kLongest * size) || try_collapse(mesh, guard, c.twin(h), kLongest * size)) ++made;
   }
   return made;
 }
 
-std::size_t even_out_valences(WorkingMesh& mesh, SheetGuard& guard) {
+std::size_t even_out_valences(BlockMesh& mesh, SheetGuard& guard) {
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<int> valence(c.vertices(), 0);
   for (Index h = 0; h < c.half_edges(); ++h) {
@@ -192,6 +188,7 @@ std::size_t even_out_valences(WorkingMesh& mesh, SheetGuard& guard) {
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!names_edge(mesh, h)) continue;
     const Index g = c.twin(h), a = c.from(h), b = c.to(h), p = c.opposite(h), q = c.opposite(g);
+    if (!c.is_inner(p) || !c.is_inner(q)) continue;
     const int before = excess(valence[a]) + excess(valence[b]) + excess(valence[p]) + excess(valence[q]);
     const int after =
         excess(valence[a] - 1) + excess(valence[b] - 1) + excess(valence[p] + 1) + excess(valence[q] + 1);
@@ -208,7 +205,7 @@ std::size_t even_out_valences(WorkingMesh& mesh, SheetGuard& guard) {
   return made;
 }
 
-std::size_t flip_edges(WorkingMesh& mesh, SheetGuard& guard) {
+std::size_t flip_edges(BlockMesh& mesh, SheetGuard& guard) {
   const HalfEdgeMesh& c = mesh.connectivity;
   std::size_t made = 0;
   for (Index h = 0; h < c.half_edges(); ++h) {

@@ -1,36 +1,35 @@
 // Splitting, collapsing and flipping edges, under the vetoes that keep what was proven.
 #pragma once
 
-#include "field/gaussian_field.h"
+#include "improve/block_mesh.h"
 #include "improve/sheet_guard.h"
-#include "improve/working_mesh.h"
 
 namespace gaussmesh {
 
 /// An operation is refused if it breaks the link condition, turns a triangle by more than kTurnLimit (or more than
-/// those it replaces) from the field, or lets triangles meet where another sheet is near. So the mesh keeps its
-/// topology, its side and its embedding. Each function goes through the mesh once, in the order of its numbers, and
-/// returns how many operations it made.
+/// those it replaces) from the field, leaves the block, or lets triangles meet where another sheet is near. So the
+/// mesh keeps its topology, its side and its embedding. Each function goes through the block once, in the order of its
+/// numbers, and returns how many operations it made.
 
 /// Splits edges longer than `factor` times the wanted size in the middle; new vertices are put on the surface.
-std::size_t split_long_edges(WorkingMesh& mesh, SheetGuard& guard, const GaussianField& field, double factor,
-                             int threads);
+std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor);
 
 /// Collapses edges shorter than `factor` times the wanted size, into the end that leaves the better triangles.
-std::size_t collapse_short_edges(WorkingMesh& mesh, SheetGuard& guard, double factor);
+std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double factor);
 
 /// Flips edges whose opposite angles add up to more than 180 degrees: Delaunay's condition.
-std::size_t flip_edges(WorkingMesh& mesh, SheetGuard& guard);
+std::size_t flip_edges(BlockMesh& mesh, SheetGuard& guard);
 
 /// Flips edges where that brings the valences nearer to 6 [Botsch, Kobbelt 2004].
-std::size_t even_out_valences(WorkingMesh& mesh, SheetGuard& guard);
+std::size_t even_out_valences(BlockMesh& mesh, SheetGuard& guard);
 
-/// The three of them on one edge, where they are allowed.
-bool try_flip(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t half_edge);
-bool try_collapse(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, double longest);
-bool try_split(WorkingMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, const SurfacePoint& middle);
+/// The three of them on one edge that is not on the boundary, where they are allowed.
+bool try_flip(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge);
+bool try_collapse(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, double longest);
+bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, const Place& middle);
 
-/// Smallest sine of the angles, and least cosine to the field, over the triangles round a vertex.
-TriangleQuality star_quality(const WorkingMesh& mesh, std::uint32_t vertex);
+/// Moves an inner vertex, unless that turns or meets triangles; the smallest angle round it may fall to `least_sine`,
+/// or to where it was.
+bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t vertex, const Place& place, double least_sine);
 
 }  // namespace gaussmesh

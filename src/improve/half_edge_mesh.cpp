@@ -2,19 +2,14 @@
 
 #include <algorithm>
 
-#include "gaussmesh/error.h"
-
 namespace gaussmesh {
 
-HalfEdgeMesh::HalfEdgeMesh(const std::vector<Triangle>& triangles, std::size_t vertex_count)
-    : corners_(3 * triangles.size()), twin_(3 * triangles.size(), kNone), out_(vertex_count, kNone) {
+HalfEdgeMesh::HalfEdgeMesh(std::vector<Triangle> triangles, std::size_t vertex_count)
+    : twin_(3 * triangles.size(), kNone), out_(vertex_count, kNone), inner_(vertex_count, 1) {
+  corners_.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) corners_.insert(corners_.end(), t.begin(), t.end());
   std::vector<Index> first(vertex_count + 1, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      corners_[3 * t + i] = triangles[t][i];
-      ++first[triangles[t][i] + 1];
-    }
-  }
+  for (const Index v : corners_) ++first[v + 1];
   for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
   std::vector<Index> leaving(corners_.size());
   std::vector<Index> fill(first.begin(), first.end() - 1);
@@ -25,7 +20,10 @@ HalfEdgeMesh::HalfEdgeMesh(const std::vector<Triangle>& triangles, std::size_t v
     for (Index k = first[v]; k < first[v + 1]; ++k) {
       if (to(leaving[k]) == u) twin_[h] = leaving[k];
     }
-    if (twin_[h] == kNone) throw InternalError("the traced mesh is not closed");
+    if (twin_[h] == kNone) inner_[u] = inner_[v] = 0;
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (out_[v] == kNone) inner_[v] = 0;
   }
 }
 
@@ -52,7 +50,7 @@ void HalfEdgeMesh::set_triangle(Index t, Index a, Index b, Index c) {
 
 void HalfEdgeMesh::link(Index h, Index g) {
   twin_[h] = g;
-  twin_[g] = h;
+  if (g != kNone) twin_[g] = h;
 }
 
 void HalfEdgeMesh::remove_triangle(Index t) {
@@ -61,7 +59,9 @@ void HalfEdgeMesh::remove_triangle(Index t) {
 
 bool HalfEdgeMesh::can_flip(Index h) const {
   const Index c = opposite(h), d = opposite(twin_[h]);
-  return c != d && valence(from(h)) > 3 && valence(to(h)) > 3 && !are_neighbours(c, d);
+  if (!inner_[from(h)] || !inner_[to(h)] || c == d || !(inner_[c] || inner_[d])) return false;
+  if (inner_[c] ? are_neighbours(c, d) : are_neighbours(d, c)) return false;
+  return valence(from(h)) > 3 && valence(to(h)) > 3;
 }
 
 void HalfEdgeMesh::flip(Index h) {
@@ -79,10 +79,11 @@ void HalfEdgeMesh::flip(Index h) {
 
 bool HalfEdgeMesh::can_collapse(Index h) const {
   const Index u = from(h), v = to(h), c = opposite(h), d = opposite(twin_[h]);
+  if (!inner_[u] || !inner_[v] || !inner_[c] || !inner_[d]) return false;
   if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
   int common = 0;
   visit_star(u, [&](Index g) {
-    if (to(g) != v && are_neighbours(to(g), v)) ++common;
+    if (to(g) != v && are_neighbours(v, to(g))) ++common;
   });
   return common == 2;
 }
@@ -104,7 +105,7 @@ void HalfEdgeMesh::collapse(Index h) {
   for (Index k : long_star) corners_[k] = v;
   remove_triangle(h / 3);
   remove_triangle(g / 3);
-  link(vc, cu);  // c -> v was vc, u -> c, now v -> c, was cu
+  link(vc, cu);  // vc runs from c to v, and cu, which ran from u to c, now from v to c
   link(ud, dv);
   out_[u] = kNone;
   out_[v] = cu;
@@ -120,6 +121,7 @@ HalfEdgeMesh::Index HalfEdgeMesh::split(Index h) {
   corners_.resize(corners_.size() + 6, kNone);
   twin_.resize(twin_.size() + 6, kNone);
   out_.push_back(kNone);
+  inner_.push_back(1);
   set_triangle(s, a, m, c);
   set_triangle(s2, m, b, c);
   set_triangle(t, m, a, d);
@@ -133,14 +135,6 @@ HalfEdgeMesh::Index HalfEdgeMesh::split(Index h) {
   link(3 * t + 2, 3 * t2 + 1);
   link(3 * t2 + 2, db);
   return m;
-}
-
-std::vector<Triangle> HalfEdgeMesh::live_triangles() const {
-  std::vector<Triangle> result;
-  for (Index t = 0; t < triangles(); ++t) {
-    if (has_triangle(t)) result.push_back(triangle(t));
-  }
-  return result;
 }
 
 }  // namespace gaussmesh

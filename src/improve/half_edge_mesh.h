@@ -1,4 +1,4 @@
-// A closed triangle mesh that can be changed: split, collapse and flip of edges.
+// A triangle mesh that can be changed: split, collapse and flip of edges.
 #pragma once
 
 #include <array>
@@ -9,21 +9,23 @@
 
 namespace gaussmesh {
 
-/// Connectivity of a closed, oriented 2-manifold of triangles. Geometry is the caller's.
+/// Connectivity of an oriented 2-manifold of triangles, with or without boundary. Geometry is the caller's.
 ///
-/// Half-edge 3 t + i runs from corner i of triangle t to corner i + 1. Every operation keeps the mesh a closed
-/// manifold of the same topology, or is refused.
+/// Half-edge 3 t + i runs from corner i of triangle t to corner i + 1. A vertex is inner if the triangles round it are
+/// a closed fan. Every operation keeps the mesh a manifold of the same topology and its boundary as it is, or is
+/// refused.
 class HalfEdgeMesh {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = 0xFFFFFFFFu;
 
-  /// @param triangles  a closed, oriented manifold over vertices 0 .. vertex_count - 1. Cost: O(n)
-  HalfEdgeMesh(const std::vector<Triangle>& triangles, std::size_t vertex_count);
+  /// @param triangles  part of a closed, oriented manifold; vertices are 0 .. vertex_count - 1. Cost: O(n)
+  HalfEdgeMesh(std::vector<Triangle> triangles, std::size_t vertex_count);
 
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
+  /// kNone on the boundary.
   Index twin(Index h) const { return twin_[h]; }
   Index from(Index h) const { return corners_[h]; }
   Index to(Index h) const { return corners_[next(h)]; }
@@ -31,12 +33,13 @@ class HalfEdgeMesh {
   Triangle triangle(Index t) const { return {corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]}; }
   bool has_triangle(Index t) const { return corners_[3 * t] != kNone; }
   bool has_vertex(Index v) const { return out_[v] != kNone; }
+  bool is_inner(Index v) const { return inner_[v]; }
 
   Index half_edges() const { return static_cast<Index>(corners_.size()); }
   Index triangles() const { return static_cast<Index>(corners_.size() / 3); }
   Index vertices() const { return static_cast<Index>(out_.size()); }
 
-  /// Calls visit(h) for every half-edge that leaves v, clockwise.
+  /// Calls visit(h) for every half-edge that leaves v, clockwise. For inner vertices.
   template <typename Visit>
   void visit_star(Index v, const Visit& visit) const {
     const Index start = out_[v];
@@ -46,24 +49,24 @@ class HalfEdgeMesh {
       h = twin_[previous(h)];
     } while (h != start);
   }
+  /// Of an inner vertex.
   int valence(Index v) const;
+  /// u is inner.
   bool are_neighbours(Index u, Index v) const;
 
-  /// Whether the edge may turn within its two triangles: the other diagonal is not an edge yet, and no valence falls
-  /// below 3.
+  /// Whether the edge, not on the boundary, may turn within its two triangles: the other diagonal is not an edge yet,
+  /// and no valence falls below 3. Refused where the fans that tell are not all here.
   bool can_flip(Index h) const;
   void flip(Index h);
 
-  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3.
+  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3. Refused unless all
+  /// four are inner.
   bool can_collapse(Index h) const;
   /// Moves from(h) into to(h): the vertex from(h) and two triangles are gone.
   void collapse(Index h);
 
-  /// Puts a new vertex in the edge. @return its number, the next one: vertices() before the call
+  /// Puts a new vertex in an edge that is not on the boundary. @return its number, the next one: vertices() before the call
   Index split(Index h);
-
-  /// The triangles that are left.
-  std::vector<Triangle> live_triangles() const;
 
  private:
   void set_triangle(Index t, Index a, Index b, Index c);
@@ -73,6 +76,7 @@ class HalfEdgeMesh {
   std::vector<Index> corners_;
   std::vector<Index> twin_;
   std::vector<Index> out_;   ///< a half-edge that leaves the vertex
+  std::vector<std::uint8_t> inner_;
 };
 
 }  // namespace gaussmesh

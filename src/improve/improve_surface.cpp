@@ -1,10 +1,12 @@
 #include "improve/improve_surface.h"
 
+#include <numbers>
 
+#include "core/parallel.h"
 #include "improve/edge_operations.h"
+#include "improve/mesh_blocks.h"
 #include "improve/relax.h"
 #include "improve/repair.h"
-#include "improve/size_field.h"
 
 namespace gaussmesh {
 namespace {
@@ -14,59 +16,134 @@ namespace {
 constexpr double kSplitFactor = 1.35;
 constexpr double kCollapseFactor = 0.7;
 
-constexpr int kRounds = 6;
-constexpr int kFinalRelaxations = 4;
-constexpr double kLeastAngle = 31.0;   // degrees; a little above what is promised
-constexpr int kRepairRounds = 6;
+/// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
+constexpr double kBlockEdge = 24.0;
 
-WorkingMesh start_with(const SurfaceMesh& traced) {
-  WorkingMesh mesh{HalfEdgeMesh(traced.triangles, traced.points.size()), traced.points, {}, {}, {}};
+/// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this factor, so
+/// that the mean edge is what was asked for.
+constexpr double kLargestFactor = 1.15;
+
+/// Where triangles are much too large they are first cut to size.
+constexpr int kMostHalvings = 4;
+
+constexpr double kLeastAngle = 31.0;   // degrees; a little above what is promised
+constexpr int kRepairRounds = 3;
+
+/// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that follow
+/// each other: a place near planes of all three axes in three of them is free in the fourth.
+struct Sweep {
+  int rounds = 0;         ///< of splits, collapses, flips and relaxation
+  bool repairs = false;
+  bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
+};
+constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, false},
+                             {1, true, true},   {1, true, true},   {1, true, true},  {1, true, true}};
+constexpr int kSweepsWithOtherPlanes = 4;
+
+WholeMesh start_with(SurfaceMesh&& traced, double spacing) {
+  WholeMesh mesh;
+  mesh.triangles = std::move(traced.triangles);
   mesh.at.reserve(traced.points.size());
-  for (const SurfacePoint& p : traced.points) mesh.at.push_back(to_angstrom(p.position));
-  mesh.size.assign(traced.points.size(), 0.0f);
-  mesh.is_guarded.assign(traced.points.size(), 0);
+  mesh.normal.reserve(traced.points.size());
+  for (const SurfacePoint& p : traced.points) {
+    mesh.at.push_back(to_angstrom(p.position));
+    mesh.normal.push_back(p.normal);
+  }
+  mesh.size.assign(mesh.at.size(), static_cast<float>(spacing));
+  mesh.refinement.assign(mesh.at.size(), 1.0f);
   return mesh;
 }
 
-SurfaceMesh finish(const WorkingMesh& mesh) {
-  SurfaceMesh result;
-  std::vector<std::uint32_t> number(mesh.points.size(), HalfEdgeMesh::kNone);
-  result.triangles = mesh.connectivity.live_triangles();
-  for (Triangle& t : result.triangles) {
-    for (std::uint32_t& v : t) {
-      if (number[v] == HalfEdgeMesh::kNone) {
-        number[v] = static_cast<std::uint32_t>(result.points.size());
-        result.points.push_back(mesh.points[v]);
-      }
-      v = number[v];
+double mean_edge(const WholeMesh& mesh) {
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
+  }
+  return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+}
+
+/// Makes only those vertices active that are near sharp edges or bad triangles. @return whether there are any
+bool activate_bad_places(BlockMesh& mesh) {
+  constexpr int kRings = 4;
+  const HalfEdgeMesh& c = mesh.connectivity;
+  std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
+  std::vector<std::uint32_t> front = refine_sharp_edges(mesh);
+  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
+    if (triangle_quality(mesh, t).min_sine >= least_sine) continue;
+    for (const std::uint32_t v : c.triangle(t)) front.push_back(v);
+  }
+  const bool any = !front.empty();
+  for (const std::uint32_t v : front) mesh.is_active[v] = 1;
+  for (int ring = 0; ring < kRings; ++ring) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t v : front) {
+      if (!c.is_inner(v)) continue;
+      c.visit_star(v, [&](std::uint32_t h) {
+        if (mesh.is_active[c.to(h)]) return;
+        mesh.is_active[c.to(h)] = 1;
+        next.push_back(c.to(h));
+      });
     }
+    front = std::move(next);
+  }
+  return any;
+}
+
+void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
+                   const Sweep& sweep) {
+  if (sweep.is_extra && !activate_bad_places(mesh)) return;
+  BlockField field(whole_field, mesh.box);
+  find_wanted_sizes(mesh, field, targets);
+  SheetGuard guard(mesh, targets.spacing, guarding == Guarding::kEverywhere);
+  for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor) > 0; ++i) {
+  }
+  for (int round = 0; round < sweep.rounds; ++round) {
+    split_long_edges(mesh, guard, field, kSplitFactor);
+    collapse_short_edges(mesh, guard, kCollapseFactor);
+    flip_edges(mesh, guard);
+    even_out_valences(mesh, guard);
+    relax_vertices(mesh, guard, field);
+  }
+  if (!sweep.is_extra) refine_sharp_edges(mesh);
+  if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+}
+
+SurfaceMesh finish(WholeMesh&& mesh) {
+  SurfaceMesh result;
+  result.triangles = std::move(mesh.triangles);
+  result.points.resize(mesh.at.size());
+  for (std::size_t v = 0; v < mesh.at.size(); ++v) {
+    result.points[v].position = to_units(mesh.at[v]);
+    result.points[v].normal = mesh.normal[v];
   }
   return result;
 }
 
 }  // namespace
 
-ImproveResult improve_surface(const SurfaceMesh& traced, const GaussianField& field, double spacing, int threads) {
-  WorkingMesh mesh = start_with(traced);
-  mesh.size = wanted_sizes(mesh, field, spacing, threads);
-  mesh.is_guarded = mark_close_sheets(mesh, 1.2 * spacing);
-  SheetGuard guard(mesh, spacing);
-  ImproveResult result;
-  ImproveCounts& counts = result.counts;
-  for (int round = 0; round < kRounds; ++round) {
-    counts.splits += split_long_edges(mesh, guard, field, kSplitFactor, threads);
-    counts.collapses += collapse_short_edges(mesh, guard, kCollapseFactor);
-    counts.flips += flip_edges(mesh, guard);
-    counts.flips += even_out_valences(mesh, guard);
-    counts.moves += relax_vertices(mesh, guard, field, threads);
+SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
+                            Guarding guarding, int threads) {
+  WholeMesh mesh = start_with(std::move(traced), targets.spacing);
+  const double edge = kBlockEdge * targets.spacing;
+  SizeTargets now = targets;
+  now.largest = targets.spacing;
+  int number = 0;
+  const auto run = [&](const Sweep& sweep) {
+    const double shift = edge * number++ / kSweepsWithOtherPlanes;
+    MeshBlocks blocks(mesh, edge, {shift, shift, shift});
+    parallel_for(blocks.size(), threads, [&](std::size_t b) {
+      BlockMesh block = blocks.extract(b);
+      improve_block(block, field, now, guarding, sweep);
+      blocks.store(b, std::move(block));
+    });
+    mesh = blocks.join(threads);
+  };
+  for (const Sweep& sweep : kSweeps) {
+    run(sweep);
+    if (&sweep == &kSweeps[1]) now.largest = targets.spacing * std::clamp(targets.spacing / mean_edge(mesh), 1.0, kLargestFactor);
   }
-  for (int i = 0; i < kFinalRelaxations; ++i) {
-    counts.flips += flip_edges(mesh, guard);
-    counts.moves += relax_vertices(mesh, guard, field, threads);
-  }
-  repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
-  result.mesh = finish(mesh);
-  return result;
+  return finish(std::move(mesh));
 }
 
 }  // namespace gaussmesh

@@ -5,6 +5,7 @@
 
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
+#include "improve/size_field.h"
 #include "roots/edge_roots.h"
 
 namespace gaussmesh {
@@ -15,27 +16,25 @@ struct SurfaceMesh {
   std::vector<Triangle> triangles;
 };
 
-/// What was done to it.
-struct ImproveCounts {
-  std::size_t splits = 0;
-  std::size_t collapses = 0;
-  std::size_t flips = 0;
-  std::size_t moves = 0;
+/// How triangles are kept from meeting.
+enum class Guarding {
+  kCloseSheets,   ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
+  kEverywhere,    ///< exact tests of every change
 };
 
-struct ImproveResult {
-  SurfaceMesh mesh;
-  ImproveCounts counts;
-};
-
-/// Makes the triangles of `traced` nearly equilateral with edges of about `spacing` (A), smaller where the surface
+/// Makes the triangles of `traced` nearly equilateral with edges of about the spacing, smaller where the surface
 /// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt 2004],
 /// then repairs of the worst triangles one by one. Every vertex stays on the surface; topology and orientation are
-/// kept by vetoes on every operation, and triangles are kept apart by exact signs wherever two sheets are near.
-/// The result has the same bits for any number of threads.
+/// kept by vetoes on every operation, and triangles are kept apart by exact signs. The work is done in blocks of space
+/// whose planes lie elsewhere in each sweep (mesh_blocks.h): the same bits for any number of threads.
 ///
-/// @param traced  closed, oriented, embedded
+/// @param traced   closed, oriented, embedded
+/// @param targets  spacing at most kLargestSpacing; `largest` is found here
 /// Cost: about ten sums over the atoms nearby for each vertex.
-ImproveResult improve_surface(const SurfaceMesh& traced, const GaussianField& field, double spacing, int threads);
+SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
+                            Guarding guarding, int threads);
+
+/// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for (core/exact_space.h).
+inline constexpr double kLargestSpacing = 200.0;
 
 }  // namespace gaussmesh

@@ -1,65 +1,175 @@
 #include "improve/sheet_guard.h"
 
 namespace gaussmesh {
+namespace {
 
-std::vector<std::uint8_t> mark_close_sheets(const WorkingMesh& mesh, double reach) {
-  constexpr double kOtherSheet = 0.25;  // cosine between normals
-  const HalfEdgeMesh& c = mesh.connectivity;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
-  const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach)); };
-  const auto key = [](std::int64_t i, std::int64_t j, std::int64_t k) {
-    return static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ull ^ static_cast<std::uint64_t>(j) * 0xC2B2AE3D27D4EB4Full ^
-           static_cast<std::uint64_t>(k) * 0x165667B19E3779F9ull;
-  };
-  for (std::uint32_t v = 0; v < c.vertices(); ++v) {
-    if (c.has_vertex(v)) cells[key(index(mesh.at[v][0]), index(mesh.at[v][1]), index(mesh.at[v][2]))].push_back(v);
+/// Normals within a box of directions.
+struct NormalBox {
+  Normal lo{2, 2, 2}, hi{-2, -2, -2};
+
+  void add(const Normal& n) {
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], n[k]);
+      hi[k] = std::max(hi[k], n[k]);
+    }
   }
-  std::vector<std::uint8_t> marks(c.vertices(), 0);
-  const auto has_other_sheet = [&](std::uint32_t v) {
-    const Vec3 n = as_vector(mesh.points[v].normal);
-    for (std::int64_t i = -1; i <= 1; ++i) {
-      for (std::int64_t j = -1; j <= 1; ++j) {
-        for (std::int64_t k = -1; k <= 1; ++k) {
-          const auto it =
-              cells.find(key(index(mesh.at[v][0]) + i, index(mesh.at[v][1]) + j, index(mesh.at[v][2]) + k));
-          if (it == cells.end()) continue;
-          for (const std::uint32_t w : it->second) {
-            const Vec3 between = mesh.at[w] - mesh.at[v];
-            if (dot(n, as_vector(mesh.points[w].normal)) < kOtherSheet && dot(between, between) < reach * reach) {
-              return true;
-            }
+  void add(const NormalBox& other) {
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], other.lo[k]);
+      hi[k] = std::max(hi[k], other.hi[k]);
+    }
+  }
+  /// |m - n|^2 = 2 - 2 cos for unit vectors.
+  double most_chord_sq() const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += double(hi[k] - lo[k]) * double(hi[k] - lo[k]);
+    return sum;
+  }
+};
+
+/// Vertices whose normals differ by more than this (cosine; 75 degrees) and which are near are of two sheets.
+constexpr double kOtherSheet = 0.25;
+
+/// Edges are rarely longer than this many wanted sizes; farther away triangles do not reach.
+constexpr double kReachInSizes = 1.6;
+
+
+/// The vertices of a block in a grid of cells as wide as `reach`.
+class VertexGrid {
+ public:
+  VertexGrid(const BlockMesh& mesh, double reach) : mesh_(mesh), reach_(reach), first_(kCells * kCells * kCells + 1, 0) {
+    // Cells no narrower than the reach; what lies outside the box goes to the cells at its sides.
+    double width = 0.0;
+    for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
+    cell_size_ = std::max(reach, width / kCells);
+    cells_of_.reserve(mesh.at.size());
+    for (const Vec3& p : mesh.at) cells_of_.push_back(cell_of(p));
+    for (const std::uint32_t cell : cells_of_) ++first_[cell + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    sorted_.resize(mesh.at.size());
+    std::vector<std::uint32_t> fill(first_.begin(), first_.end() - 1);
+    for (std::uint32_t v = 0; v < mesh.at.size(); ++v) sorted_[fill[cells_of_[v]]++] = v;
+    boxes_.resize(kCells * kCells * kCells);
+    for (std::uint32_t v = 0; v < mesh.at.size(); ++v) boxes_[cells_of_[v]].add(mesh.normal[v]);
+  }
+
+  /// Calls mark(v) for every vertex that has one of another sheet within reach.
+  template <typename Mark>
+  void find_close_sheets(const Mark& mark) const {
+    constexpr double kChordSq = 2.0 - 2.0 * kOtherSheet;
+    for (std::uint32_t cell = 0; cell < boxes_.size(); ++cell) {
+      if (first_[cell] == first_[cell + 1]) continue;
+      std::array<std::uint32_t, 27> near;
+      std::size_t count = 0;
+      NormalBox normals;
+      const std::array<int, 3> at{static_cast<int>(cell) / (kCells * kCells), static_cast<int>(cell) / kCells % kCells,
+                                  static_cast<int>(cell) % kCells};
+      for (int i = std::max(0, at[0] - 1); i <= std::min(kCells - 1, at[0] + 1); ++i) {
+        for (int j = std::max(0, at[1] - 1); j <= std::min(kCells - 1, at[1] + 1); ++j) {
+          for (int k = std::max(0, at[2] - 1); k <= std::min(kCells - 1, at[2] + 1); ++k) {
+            const auto other = static_cast<std::uint32_t>((i * kCells + j) * kCells + k);
+            if (first_[other] == first_[other + 1]) continue;
+            near[count++] = other;
+            normals.add(boxes_[other]);
           }
         }
       }
+      if (normals.most_chord_sq() < kChordSq) continue;
+      for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+        if (has_other_sheet(sorted_[i], near.data(), count)) mark(sorted_[i]);
+      }
+    }
+  }
+
+ private:
+  static constexpr int kCells = 20;
+
+  std::uint32_t cell_of(const Vec3& p) const {
+    std::uint32_t cell = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double i = std::floor((p[k] - mesh_.box.lo[k]) / cell_size_);
+      cell = cell * kCells + (i <= 0.0 ? 0u : i >= kCells - 1 ? kCells - 1u : static_cast<std::uint32_t>(i));
+    }
+    return cell;
+  }
+
+  bool has_other_sheet(std::uint32_t v, const std::uint32_t* near, std::size_t count) const {
+    const Vec3 n = as_vector(mesh_.normal[v]);
+    for (std::size_t c = 0; c < count; ++c) {
+      for (std::uint32_t i = first_[near[c]]; i < first_[near[c] + 1]; ++i) {
+        const std::uint32_t w = sorted_[i];
+        if (dot(n, mesh_.normal[w]) >= kOtherSheet) continue;
+        const Vec3 between = mesh_.at[w] - mesh_.at[v];
+        const double reach = std::min(reach_, kReachInSizes * double(std::max(mesh_.size[v], mesh_.size[w])));
+        if (dot(between, between) < reach * reach) return true;
+      }
     }
     return false;
+  }
+
+  const BlockMesh& mesh_;
+  double reach_;
+  double cell_size_ = 0.0;
+  std::vector<std::uint32_t> first_, sorted_, cells_of_;
+  std::vector<NormalBox> boxes_;
+};
+
+void mark_close_sheets(BlockMesh& mesh, double reach) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  std::vector<std::uint8_t> marks(mesh.at.size(), 0);
+  VertexGrid(mesh, reach).find_close_sheets([&](std::uint32_t v) { marks[v] = 1; });
+  mesh.is_guarded = marks;
+  const auto spread = [&](const Triangle& t) {
+    if (!marks[t[0]] && !marks[t[1]] && !marks[t[2]]) return;
+    for (const std::uint32_t v : t) mesh.is_guarded[v] = 1;
   };
-  for (std::uint32_t v = 0; v < c.vertices(); ++v) {
-    if (!c.has_vertex(v) || !has_other_sheet(v)) continue;
-    marks[v] = 1;
-    c.visit_star(v, [&](std::uint32_t h) { marks[c.to(h)] = 1; });
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) spread(c.triangle(t));
+  for (const Triangle& t : mesh.fixed) spread(t);
+}
+
+}  // namespace
+
+SheetGuard::SheetGuard(BlockMesh& mesh, double spacing, bool everywhere)
+    : lo_(mesh.box.lo), everywhere_(everywhere), head_(kMostCells * kMostCells * kMostCells, -1) {
+  double width = 0.0;
+  for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
+  cells_per_angstrom_ = static_cast<float>(kMostCells / width);
+  if (everywhere) {
+    std::fill(mesh.is_guarded.begin(), mesh.is_guarded.end(), std::uint8_t{1});
+  } else {
+    mark_close_sheets(mesh, kReachInSizes * spacing);
   }
-  return marks;
-}
-
-SheetGuard::SheetGuard(const WorkingMesh& mesh, double cell_size)
-    : cell_units_(std::max<Coord>(1, std::llround(cell_size * kUnitsPerAngstrom))) {
-  rebuild(mesh);
-}
-
-void SheetGuard::rebuild(const WorkingMesh& mesh) {
-  cells_.clear();
-  for (std::uint32_t t = 0; t < mesh.connectivity.triangles(); ++t) {
-    if (mesh.connectivity.has_triangle(t)) insert(mesh, t);
+  for (std::uint32_t t = 0; t < mesh.connectivity.triangles(); ++t) insert(mesh, t);
+  for (std::uint32_t i = 0; i < mesh.fixed.size(); ++i) {
+    if (is_guarded(mesh, mesh.fixed[i])) enter(mesh, mesh.fixed[i], kFirstFixed + i);
   }
 }
 
-void SheetGuard::insert(const WorkingMesh& mesh, std::uint32_t triangle) {
+bool SheetGuard::pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t) {
+  const auto name = [&](const Triangle& u) {
+    return NamedTriangle{u, {to_units(mesh.at[u[0]]), to_units(mesh.at[u[1]]), to_units(mesh.at[u[2]])}};
+  };
+  return triangles_may_meet(name(s), name(t));
+}
+
+void SheetGuard::insert(const BlockMesh& mesh, std::uint32_t triangle) {
   const Triangle t = mesh.connectivity.triangle(triangle);
-  if (!is_guarded(mesh, t)) return;
-  visit_cells(name(mesh, t), [&](std::uint64_t key) {
-    std::vector<std::uint32_t>& cell = cells_[key];
-    if (std::find(cell.begin(), cell.end(), triangle) == cell.end()) cell.push_back(triangle);
+  if (is_guarded(mesh, t)) enter(mesh, t, triangle);
+}
+
+void SheetGuard::enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle) {
+  const SmallBox box = box_of(mesh, corners);
+  const Normal normal = mean_normal(mesh, corners);
+  visit_cells(box, [&](std::size_t cell) {
+    for (std::int32_t n = head_[cell]; n >= 0; n = nodes_[n].next) {
+      if (nodes_[n].triangle != triangle) continue;
+      nodes_[n].box = box;
+      nodes_[n].normal = normal;
+      return false;
+    }
+    nodes_.push_back({triangle, head_[cell], box, normal});
+    head_[cell] = static_cast<std::int32_t>(nodes_.size()) - 1;
+    return false;
   });
 }
 

@@ -1,84 +1,127 @@
 // Keeping sheets of the surface apart: exact tests where another sheet is near.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "core/exact_space.h"
-#include "improve/working_mesh.h"
+#include "improve/block_mesh.h"
 
 namespace gaussmesh {
 
-/// Marks the vertices that have a vertex of another sheet - one whose normal points away by more than 75 degrees -
-/// nearer than `reach` (A), and their neighbours: only there can triangles of the improved mesh meet.
-std::vector<std::uint8_t> mark_close_sheets(const WorkingMesh& mesh, double reach);
-
-/// The triangles near other sheets, in a grid.
+/// The triangles of a block that have another sheet near, and those that reach into it from outside, in a grid.
 class SheetGuard {
  public:
-  /// @param cell_size  about the size of the triangles (A)
-  SheetGuard(const WorkingMesh& mesh, double cell_size);
+  /// Marks the vertices of `mesh` that have another sheet near.
+  /// @param everywhere  mark all of them: slow, but then nothing rests on what counts as near
+  SheetGuard(BlockMesh& mesh, double spacing, bool everywhere);
 
-  static bool is_guarded(const WorkingMesh& mesh, const Triangle& t) {
+  static bool is_guarded(const BlockMesh& mesh, const Triangle& t) {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
   }
 
-  /// Whether `t`, a triangle that is to be, may meet one of the mesh; triangles of which `ignored` says so do not
-  /// count. Exact in general position; errs on the side of true where points are coplanar.
+  /// Whether `t`, a triangle that is to be, may meet one of the block or from outside; triangles of the block of which
+  /// `ignored` says so do not count. Exact in general position; errs on the side of true where points are coplanar.
   template <typename Ignored>
-  bool may_meet(const WorkingMesh& mesh, const Triangle& t, const Ignored& ignored) const {
-    const NamedTriangle named = name(mesh, t);
-    bool met = false;
-    visit_cells(named, [&](std::uint64_t key) {
-      const auto it = cells_.find(key);
-      if (met || it == cells_.end()) return;
-      for (const std::uint32_t other : it->second) {
-        if (!mesh.connectivity.has_triangle(other) || ignored(other)) continue;
-        const Triangle u = mesh.connectivity.triangle(other);
-        if (triangles_may_meet(named, name(mesh, u))) {
-          met = true;
-          return;
+  bool may_meet(const BlockMesh& mesh, const Triangle& t, const Ignored& ignored) const {
+    const SmallBox box = box_of(mesh, t);
+    const Normal normal = mean_normal(mesh, t);
+    return visit_cells(box, [&](std::size_t cell) {
+      for (std::int32_t n = head_[cell]; n >= 0; n = nodes_[n].next) {
+        if (!box.meets(nodes_[n].box)) continue;
+        if (!everywhere_ && are_of_one_sheet(normal, nodes_[n].normal)) continue;
+        const std::uint32_t other = nodes_[n].triangle;
+        if (other >= kFirstFixed) {
+          if (pair_may_meet(mesh, t, mesh.fixed[other - kFirstFixed])) return true;
+        } else if (mesh.connectivity.has_triangle(other) && !ignored(other) &&
+                   pair_may_meet(mesh, t, mesh.connectivity.triangle(other))) {
+          return true;
         }
       }
+      return false;
     });
-    return met;
   }
-
-  /// Starts anew with the triangles as they are now.
-  void rebuild(const WorkingMesh& mesh);
 
   /// Enters a triangle that has come to be or has moved.
-  void insert(const WorkingMesh& mesh, std::uint32_t triangle);
+  void insert(const BlockMesh& mesh, std::uint32_t triangle);
 
  private:
-  static NamedTriangle name(const WorkingMesh& mesh, const Triangle& t) {
-    return {t, {mesh.points[t[0]].position, mesh.points[t[1]].position, mesh.points[t[2]].position}};
+  static constexpr std::uint32_t kFirstFixed = 0x80000000u;
+  static constexpr int kMostCells = 48;   ///< along an axis
+
+  /// A box that holds a triangle, by floats rounded outwards, from a corner of the block.
+  struct SmallBox {
+    std::array<float, 3> lo, hi;
+
+    bool meets(const SmallBox& other) const {
+      return lo[0] <= other.hi[0] && other.lo[0] <= hi[0] && lo[1] <= other.hi[1] && other.lo[1] <= hi[1] &&
+             lo[2] <= other.hi[2] && other.lo[2] <= hi[2];
+    }
+  };
+
+  struct Node {
+    std::uint32_t triangle;
+    std::int32_t next;
+    SmallBox box;
+    Normal normal;   ///< mean of the field's at the corners, not of unit length
+  };
+
+  static bool pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t);
+  void enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle);
+
+  static Normal mean_normal(const BlockMesh& mesh, const Triangle& t) {
+    Normal mean{};
+    for (const std::uint32_t v : t) {
+      for (int k = 0; k < 3; ++k) mean[k] += mesh.normal[v][k] * (1.0f / 3.0f);
+    }
+    return mean;
   }
 
-  template <typename Visit>
-  void visit_cells(const NamedTriangle& t, const Visit& visit) const {
-    std::int64_t lo[3], hi[3];
+  /// Triangles of one sheet are kept apart by the limit on their turn from the field.
+  static bool are_of_one_sheet(const Normal& m, const Normal& n) {
+    constexpr float kSameSheet = 0.4f;   // cosine, times the lengths, which are less than 1 where normals differ
+    return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > kSameSheet;
+  }
+
+  SmallBox box_of(const BlockMesh& mesh, const Triangle& t) const {
+    constexpr float kSlack = 1e-5f;   // relative: two roundings, and the subtraction of the corner
+    SmallBox box;
     for (int k = 0; k < 3; ++k) {
-      const auto [least, most] = std::minmax({t.at[0][k], t.at[1][k], t.at[2][k]});
-      lo[k] = cell_index(least);
-      hi[k] = cell_index(most);
+      const auto [least, most] = std::minmax({mesh.at[t[0]][k], mesh.at[t[1]][k], mesh.at[t[2]][k]});
+      const auto lo = static_cast<float>(least - lo_[k]), hi = static_cast<float>(most - lo_[k]);
+      box.lo[k] = lo - kSlack * std::abs(lo);
+      box.hi[k] = hi + kSlack * std::abs(hi);
     }
-    for (std::int64_t i = lo[0]; i <= hi[0]; ++i) {
-      for (std::int64_t j = lo[1]; j <= hi[1]; ++j) {
-        for (std::int64_t k = lo[2]; k <= hi[2]; ++k) visit(cell_key(i, j, k));
+    return box;
+  }
+
+  /// Calls visit(cell) for the cells that the box meets until it says true. @return whether it did
+  template <typename Visit>
+  bool visit_cells(const SmallBox& box, const Visit& visit) const {
+    std::array<int, 3> lo, hi;
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = index_of(box.lo[k]);
+      hi[k] = index_of(box.hi[k]);
+    }
+    for (int i = lo[0]; i <= hi[0]; ++i) {
+      for (int j = lo[1]; j <= hi[1]; ++j) {
+        for (int k = lo[2]; k <= hi[2]; ++k) {
+          if (visit(static_cast<std::size_t>((i * kMostCells + j) * kMostCells + k))) return true;
+        }
       }
     }
+    return false;
   }
 
-  std::int64_t cell_index(Coord c) const { return c >= 0 ? c / cell_units_ : -((-c + cell_units_ - 1) / cell_units_); }
-  static std::uint64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
-    // Two cells of one key only cost a few more tests.
-    return static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ull ^ static_cast<std::uint64_t>(j) * 0xC2B2AE3D27D4EB4Full ^
-           static_cast<std::uint64_t>(k) * 0x165667B19E3779F9ull;
+  int index_of(float x) const {
+    const float i = x * cells_per_angstrom_;
+    return i <= 0.0f ? 0 : i >= static_cast<float>(kMostCells - 1) ? kMostCells - 1 : static_cast<int>(i);
   }
 
-  Coord cell_units_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  Vec3 lo_;
+  float cells_per_angstrom_;
+  bool everywhere_;
+  std::vector<std::int32_t> head_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace gaussmesh

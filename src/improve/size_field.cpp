@@ -1,36 +1,92 @@
 #include "improve/size_field.h"
 
-#include "core/parallel.h"
-#include "improve/surface_projector.h"
-
 namespace gaussmesh {
+namespace {
 
-std::vector<float> wanted_sizes(const WorkingMesh& mesh, const GaussianField& field, double spacing, int threads) {
-  constexpr std::size_t kBlock = 512;
+using Index = HalfEdgeMesh::Index;
+
+double wanted_size(const FieldJet& jet, const SizeTargets& targets) {
+  const double curvature = largest_curvature(jet);
+  double size = std::min(kTurnPerEdge / curvature, targets.largest);
+  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the surface;
+  // edges may be up to half as long again as wanted.
+  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
+  return std::max(size, kLeastSize * targets.spacing);
+}
+
+/// Lowers sizes until none grows faster than kGrowth.
+void limit_growth(BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
-  std::vector<float> size(c.vertices(), static_cast<float>(spacing));
-  parallel_for((c.vertices() + kBlock - 1) / kBlock, threads, [&](std::size_t block) {
-    SurfaceProjector projector(field);
-    for (std::size_t v = block * kBlock; v < std::min<std::size_t>(c.vertices(), (block + 1) * kBlock); ++v) {
-      if (!c.has_vertex(static_cast<std::uint32_t>(v))) continue;
-      const double curvature = projector.curvature(mesh.at[v]);
-      size[v] = static_cast<float>(std::clamp(kTurnPerEdge / curvature, kLeastSize * spacing, spacing));
+  bool changed = true;
+  const auto limit = [&](Index u, Index v) {
+    const auto most = static_cast<float>(double(mesh.size[u]) + kGrowth * length(mesh.at[v] - mesh.at[u]));
+    if (!(mesh.size[v] > most * 1.0001f)) return;
+    mesh.size[v] = most;
+    changed = true;
+  };
+  for (const Triangle& t : mesh.fixed) {
+    for (int i = 0; i < 3; ++i) {
+      limit(t[i], t[(i + 1) % 3]);
+      limit(t[(i + 1) % 3], t[i]);
     }
-  });
-  // Sizes grow slowly away from small ones: sweeps until nothing changes, few of them since sizes span a factor of 4.
-  for (bool changed = true; changed;) {
+  }
+  while (changed) {
     changed = false;
-    for (std::uint32_t h = 0; h < c.half_edges(); ++h) {
-      if (!c.has_triangle(h / 3)) continue;
-      const std::uint32_t u = c.from(h), v = c.to(h);
-      const auto most = static_cast<float>(double(size[u]) + kGrowth * length(mesh.at[v] - mesh.at[u]));
-      if (size[v] > most * 1.0001f) {
-        size[v] = most;
-        changed = true;
+    for (Index t = 0; t < c.triangles(); ++t) {
+      if (!c.has_triangle(t)) continue;
+      const Triangle v = c.triangle(t);
+      for (int i = 0; i < 3; ++i) {
+        limit(v[i], v[(i + 1) % 3]);
+        limit(v[(i + 1) % 3], v[i]);
       }
     }
   }
-  return size;
+}
+
+}  // namespace
+
+void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  for (Index v = 0; v < c.vertices(); ++v) {
+    if (!mesh.is_active[v] || !c.has_vertex(v)) continue;
+    mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(field.jet(mesh.at[v]), targets));
+  }
+  for (Index h = 0; h < c.half_edges(); ++h) {
+    if (!c.has_triangle(h / 3)) continue;
+    const Index u = c.from(h), v = c.to(h);
+    const double turn = length(as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]));
+    if (turn <= kTurnBetweenEnds) continue;
+    const double most = std::max(kTurnBetweenEnds / turn * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
+    mesh.size[u] = std::min(mesh.size[u], static_cast<float>(most));
+    mesh.size[v] = std::min(mesh.size[v], static_cast<float>(most));
+  }
+  limit_growth(mesh);
+}
+
+std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
+  constexpr double kSharp = 0.52;   // cosine of 58 degrees
+  constexpr float kSmaller = 0.8f;
+  constexpr float kLeastRefinement = 0.4f;
+  const HalfEdgeMesh& c = mesh.connectivity;
+  std::vector<std::uint8_t> is_sharp(mesh.at.size(), 0);
+  const auto normal_of = [&](Index t) {
+    const Triangle v = c.triangle(t);
+    return cross(mesh.at[v[1]] - mesh.at[v[0]], mesh.at[v[2]] - mesh.at[v[0]]);
+  };
+  for (Index h = 0; h < c.half_edges(); ++h) {
+    if (!c.has_triangle(h / 3) || c.twin(h) < h || !c.is_inner(c.from(h)) || !c.is_inner(c.to(h))) continue;
+    const Vec3 m = normal_of(h / 3), n = normal_of(c.twin(h) / 3);
+    const double cosine = dot(m, n);
+    if (cosine > 0.0 && cosine * cosine >= kSharp * kSharp * dot(m, m) * dot(n, n)) continue;
+    for (const Index v : {c.from(h), c.to(h), c.opposite(h), c.opposite(c.twin(h))}) is_sharp[v] = 1;
+  }
+  std::vector<Index> sharp;
+  for (Index v = 0; v < c.vertices(); ++v) {
+    if (!is_sharp[v]) continue;
+    mesh.refinement[v] = std::max(kLeastRefinement, kSmaller * mesh.refinement[v]);
+    sharp.push_back(v);
+  }
+  return sharp;
 }
 
 }  // namespace gaussmesh

@@ -1,24 +1,38 @@
 // How large triangles should be where.
 #pragma once
 
-#include <vector>
-
-#include "field/gaussian_field.h"
-#include "improve/working_mesh.h"
+#include "improve/block_mesh.h"
 
 namespace gaussmesh {
 
-/// Wanted edges (A) by vertex: `spacing`, less where the curvature asks for it - an edge may turn the normal by no
-/// more than kTurnPerEdge - and growing by no more than kGrowth per A from there.
-std::vector<float> wanted_sizes(const WorkingMesh& mesh, const GaussianField& field, double spacing, int threads);
+/// What is asked of the sizes of triangles.
+struct SizeTargets {
+  double spacing = 0.5;     ///< A: the wanted mean edge
+  double tolerance = 0.0;   ///< A: farthest that triangles may be from the surface; 0: no limit
+  double largest = 0.5;     ///< A: the wanted edge where nothing asks for less
+};
 
-/// Angle (radians) between the normals at the ends of an edge of the wanted size.
-inline constexpr double kTurnPerEdge = 1.2;
+/// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at either.
+/// On a cylinder of radius R equilateral triangles of edge s turn by up to 2 asin(0.87 s / 2 R) against each other.
+inline constexpr double kTurnPerEdge = 1.1;
+
+/// The same by the normals at both ends: between them the surface may curve more than at either.
+inline constexpr double kTurnBetweenEnds = 1.0;
 
 /// Largest slope of the wanted size along the surface: neighbours differ by less than a factor of 2.
 inline constexpr double kGrowth = 0.4;
 
 /// No edge is wanted shorter than this part of the spacing.
-inline constexpr double kLeastSize = 0.3;
+inline constexpr double kLeastSize = 0.03;
+
+/// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge turns the
+/// normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and growing by no
+/// more than kGrowth per A from there. Sizes of vertices outside the block are taken as they are.
+/// Cost: one sum over the atoms nearby for each vertex.
+void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
+
+/// Asks for smaller triangles where neighbours turn by nearly 60 degrees against each other.
+/// @return the vertices there
+std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh);
 
 }  // namespace gaussmesh

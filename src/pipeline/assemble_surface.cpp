@@ -116,12 +116,13 @@ constexpr int kFinestForNormals = 5;
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const FoldCellMap& folds, const std::vector<SurfacePoint>& points)
+              const FoldCellMap& folds, const std::vector<SurfacePoint>& points, double least_corner_cosine)
       : field_(field),
         lattice_(lattice),
         store_(store),
         folds_(folds),
         points_(points),
+        least_corner_cosine_(least_corner_cosine),
         collector_(lattice, store, split, points),
         triangulator_(field),
         fold_triangulator_(field) {}
@@ -156,16 +157,24 @@ class CellPatcher {
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
 
+  static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += double(p.normal[k]) * double(q.normal[k]);
+    return sum;
+  }
+
   const SurfacePoint& point(std::uint32_t vertex, const Patch& patch) const {
     return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : points_[vertex];
   }
 
-  /// Whether a triangle is turned against the field at its centroid: the cell is too coarse for the surface.
+  /// Whether a triangle is turned against the field at its centroid, or has corners that face too many ways: the cell is
+  /// too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
     constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
     bool atoms_loaded = false;
     for (const Triangle& t : patch.triangles) {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
+      if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
       if (least_normal_cosine(p, q, r) > kSuspect) continue;
       if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
       atoms_loaded = true;
@@ -183,6 +192,7 @@ class CellPatcher {
   const CellStore& store_;
   const FoldCellMap& folds_;
   const std::vector<SurfacePoint>& points_;
+  double least_corner_cosine_;
   NearAtoms atoms_;
   LoopCollector collector_;
   PatchTriangulator triangulator_;
@@ -288,7 +298,7 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
   patched_.resize(bricks);
   patched_.resize(bricks + leaf_tasks);
   parallel_for_workers(patched_.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, points)](std::size_t task) mutable {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, points, least_corner_cosine_)](std::size_t task) mutable {
       PatchedCells& result = patched_[task];
       if (task < bricks) {
         const auto brick = static_cast<std::uint32_t>(task);

@@ -56,8 +56,11 @@ struct PatchedCells {
 /// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
 class CellTriangulator {
  public:
-  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store)
-      : field_(field), lattice_(lattice), store_(store) {}
+  /// @param least_corner_cosine  cells fail also where the normals at the corners of a triangle differ by more than
+  ///                             this: they are too coarse for the surface (-1: never)
+  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store,
+                   double least_corner_cosine)
+      : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
   /// All curves have been traced. When no cell failed, the surface is complete, and this is the last call.
   PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const LevelZeroTracer& faces,
@@ -71,6 +74,7 @@ class CellTriangulator {
   const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
+  double least_corner_cosine_;
   std::vector<PatchedCells> patched_;           ///< by brick, then leaves
   std::vector<std::uint32_t> face_vertices_;    ///< first_face_vertex of the bricks, as numbered in `patched_`
 };

@@ -61,7 +61,12 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_range("decay", options.decay, 1e-3, 1e3, " (1/A^2)");
   check_range("isovalue", options.isovalue, 1e-9, 1e9, "");
   check_range("spacing", options.spacing, 0.01, 1000.0, " (A)");
+  check_range("tolerance", options.tolerance, 0.0, 1000.0, " (A)");
   check_range("threads", options.threads, 0, 4096, "");
+  if (options.improve && options.spacing > kLargestSpacing) {
+    throw OptionError("spacing: expected at most " + number_text(kLargestSpacing) +
+                      " A unless the mesh is to stay as traced, got '" + number_text(options.spacing) + "'");
+  }
   if (atoms.empty()) throw InputError("no atoms: expected at least one");
   for (const Atom& a : atoms) {
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -73,13 +78,16 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-/// Takes the triangles; the points stay.
-TriangleMesh to_mesh(SurfaceMesh& surface) {
-  TriangleMesh mesh;
-  mesh.vertices.reserve(surface.points.size());
-  for (const SurfacePoint& p : surface.points) mesh.vertices.push_back(to_angstrom(p.position));
-  mesh.triangles = std::move(surface.triangles);
-  return mesh;
+void to_mesh(SurfaceMesh&& surface, MeshResult& result) {
+  result.mesh.vertices.clear();
+  result.normals.clear();
+  result.mesh.vertices.reserve(surface.points.size());
+  result.normals.reserve(surface.points.size());
+  for (const SurfacePoint& p : surface.points) {
+    result.mesh.vertices.push_back(to_angstrom(p.position));
+    result.normals.push_back(p.normal);
+  }
+  result.mesh.triangles = std::move(surface.triangles);
 }
 
 void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
@@ -119,6 +127,14 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
 }
 
+/// Where triangles are improved, cells are split in which the surface turns by more than 78 degrees: what is too coarse
+/// for its curvature cannot be mended by moving vertices.
+constexpr double kLeastCornerCosine = 0.2;
+
+TraceDemands trace_demands(const MeshOptions& options) {
+  return {options.spacing, options.improve ? kLeastCornerCosine : -1.0};
+}
+
 /// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
 TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
                          double& isovalue_used) {
@@ -126,7 +142,7 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
     for (const double sign : {-1.0, 1.0}) {
       isovalue_used = options.isovalue * (1.0 + sign * change);
       const GaussianField field(atoms, options.decay, isovalue_used);
-      TraceResult trace = trace_surface(field, options.spacing, threads,
+      TraceResult trace = trace_surface(field, trace_demands(options), threads,
                                         [&](const std::string& stage) { watch.finished(stage); });
       if (trace.uncertified.empty()) return trace;
     }
@@ -134,36 +150,19 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
   throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) + " can be certified");
 }
 
-void verify(const MeshResult& result, const std::vector<Atom>& atoms, MeshReport& report) {
-  report.check = check_mesh(result.mesh);
-  if (!report.check.fit_for_solver()) {
-    throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
-  }
-  report.vertex_distance_max =
-      vertex_distance_to_surface(result.mesh, atoms, report.options.decay, report.isovalue_used).max;
-  if (!(report.vertex_distance_max <= kVertexTolerance)) {
-    throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
-                        " A away from the surface: please report this molecule");
-  }
+/// V - F / 2, which is the Euler number of a closed mesh.
+std::int64_t euler_number(const SurfaceMesh& mesh) {
+  return static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
 }
 
-}  // namespace
-
-MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
-  check_options(atoms, options);
-  const int threads = thread_count(options.threads);
-  MeshResult result;
-  MeshReport& report = result.report;
-  report.atoms = atoms.size();
-  report.options = options;
-  report.isovalue_used = options.isovalue;
-  Stopwatch watch(report.stages, options.on_stage_end);
-
-  const GaussianField field(atoms, options.decay, options.isovalue);
-  watch.finished("field");
+/// The traced surface, with the certificate in `report`.
+/// @throws CannotMeshError
+SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>& atoms, const MeshOptions& options,
+                            int threads, Stopwatch& watch, MeshReport& report) {
   TraceResult trace;
   try {
-    trace = trace_surface(field, options.spacing, threads, [&](const std::string& stage) { watch.finished(stage); });
+    trace = trace_surface(field, trace_demands(options), threads,
+                          [&](const std::string& stage) { watch.finished(stage); });
     report.certified = trace.uncertified.empty();
     if (!report.certified) {
       report.critical = critical_places(field, trace, options.isovalue);
@@ -178,15 +177,64 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
     throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
                           " everywhere; choose a smaller c");
   }
-  if (options.improve) {
+  return std::move(trace.surface);
+}
+
+/// Improves a traced mesh; `result` gets it with the judge's verdict. @return whether it may be given out
+bool improve(SurfaceMesh traced, const GaussianField& field, const MeshOptions& options, Guarding guarding, int threads,
+             Stopwatch& watch, MeshResult& result) {
+  const std::int64_t chi = euler_number(traced);
+  SizeTargets targets;
+  targets.spacing = options.spacing;
+  targets.tolerance = options.tolerance;
+  SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads);
+  const bool same_topology = euler_number(improved) == chi;
+  to_mesh(std::move(improved), result);
+  watch.finished("improve");
+  result.report.check = check_mesh(result.mesh);
+  watch.finished("verify");
+  return same_topology && result.report.check.fit_for_solver();
+}
+
+}  // namespace
+
+double spacing_for_density(double vertices_per_A2) { return std::sqrt(2.0 / (std::sqrt(3.0) * vertices_per_A2)); }
+
+MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
+  check_options(atoms, options);
+  const int threads = thread_count(options.threads);
+  MeshResult result;
+  MeshReport& report = result.report;
+  report.atoms = atoms.size();
+  report.options = options;
+  report.isovalue_used = options.isovalue;
+  Stopwatch watch(report.stages, options.on_stage_end);
+
+  const GaussianField field(atoms, options.decay, options.isovalue);
+  watch.finished("field");
+  SurfaceMesh traced = certified_trace(field, atoms, options, threads, watch, report);
+  bool is_good = true;
+  if (!options.improve) {
+    to_mesh(std::move(traced), result);
+    report.check = check_mesh(result.mesh);
+    is_good = report.check.fit_for_solver();
+  } else {
     const GaussianField used(atoms, options.decay, report.isovalue_used);
-    trace.surface = improve_surface(trace.surface, used, options.spacing, threads).mesh;
-    watch.finished("improve");
+    is_good = improve(std::move(traced), used, options, Guarding::kCloseSheets, threads, watch, result);
+    if (!is_good) {
+      traced = certified_trace(field, atoms, options, threads, watch, report);
+      is_good = improve(std::move(traced), used, options, Guarding::kEverywhere, threads, watch, result);
+    }
   }
-  result.mesh = to_mesh(trace.surface);
-  for (const SurfacePoint& p : trace.surface.points) result.normals.push_back(p.normal);
-  watch.finished("mesh");
-  verify(result, atoms, report);
+  if (!is_good) {
+    throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
+  }
+  report.vertex_distance_max =
+      vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;
+  if (!(report.vertex_distance_max <= kVertexTolerance)) {
+    throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
+                        " A away from the surface: please report this molecule");
+  }
   watch.finished("verify");
   return result;
 }

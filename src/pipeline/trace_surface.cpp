@@ -44,7 +44,8 @@ void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult&
   }
 }
 
-TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int threads, const StageClock& finished) {
+TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double least_corner_cosine, int threads,
+                     const StageClock& finished) {
   TraceResult result;
   CellStore store(field, lattice, threads);
   add_box_counts(store, lattice, result);
@@ -63,7 +64,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, int thr
     finished("folds");
   }
   LevelZeroTracer faces(field, lattice, store);
-  CellTriangulator cells(field, lattice, store);
+  CellTriangulator cells(field, lattice, store, least_corner_cosine);
   CellSet forced;
   for (int round = 0; round < kMaxRounds; ++round) {
     SplitLattice split(field, lattice, store, folds, forced, threads);
@@ -102,10 +103,11 @@ bool is_near_critical(const GaussianField& field, const Vec3& place) {
 
 }  // namespace
 
-TraceResult trace_surface(const GaussianField& field, double spacing, int threads, const StageClock& finished) {
+TraceResult trace_surface(const GaussianField& field, const TraceDemands& demands, int threads,
+                          const StageClock& finished) {
   for (const Vec3& offset : kOffsets) {
     try {
-      return trace_on(field, make_lattice(spacing, offset), threads, finished);
+      return trace_on(field, make_lattice(demands.spacing, offset), demands.least_corner_cosine, threads, finished);
     } catch (const LatticeDegenerate& degenerate) {
       if (&offset != std::end(kOffsets) - 1) continue;
       if (!is_near_critical(field, degenerate.place)) throw;

@@ -20,12 +20,20 @@ struct TraceResult {
   double smallest_box = 0.0;                   ///< A
 };
 
+/// How finely the surface is to be traced.
+struct TraceDemands {
+  double spacing = 0.5;               ///< A: the size of the cells
+  /// Cells are split where normals at the corners of one triangle differ by more than this (cosine): -1 for never.
+  double least_corner_cosine = -1.0;
+};
+
 /// Called at the end of each stage with its name.
 using StageClock = std::function<void(const std::string&)>;
 
-/// Traces the surface of `field` with cells of the given size.
+/// Traces the surface of `field`.
 /// @throws LatticeDegenerate if the surface is degenerate with respect to each of a few lattices, and not for the reason
 ///         that c is next to a critical value; that counts as uncertified
-TraceResult trace_surface(const GaussianField& field, double spacing, int threads, const StageClock& finished);
+TraceResult trace_surface(const GaussianField& field, const TraceDemands& demands, int threads,
+                          const StageClock& finished);
 
 }  // namespace gaussmesh

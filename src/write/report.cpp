@@ -17,6 +17,7 @@ Json options_json(const MeshReport& report) {
           {"probe_radius_A", report.probe_radius},
           {"spacing_A", o.spacing},
           {"improve", o.improve},
+          {"tolerance_A", o.tolerance},
           {"threads", o.threads},
           {"allow_uncertified", o.allow_uncertified}};
 }
@@ -43,7 +44,9 @@ Json quality_json(const MeshCheck& check) {
           {"mean_edge_ratio", check.mean_edge_ratio},
           {"min_edge_A", check.min_edge},
           {"mean_edge_A", check.mean_edge},
-          {"max_edge_A", check.max_edge}};
+          {"max_edge_A", check.max_edge},
+          {"edge_ratio_histogram_by_0.05", check.ratio_histogram},
+          {"angle_histogram_by_10_deg", check.angle_histogram}};
 }
 
 Json proof_json(const MeshReport& report) {
@@ -114,6 +117,10 @@ std::string report_summary(const MeshReport& report) {
       counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") + ", " +
       counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) + " A^2, volume " +
       number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " + number_text(memory_MB, 3) + " MB\n";
+  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
+          " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
+          number_text(100.0 * check.under_30_deg, 2) + " % under 30; mean edge " + number_text(check.mean_edge, 3) +
+          " A, shortest over longest " + number_text(check.mean_edge_ratio, 3) + "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
                                counted(cavities, "cavity", "cavities") + ", " +
                                counted(handles, "handle", "handles");

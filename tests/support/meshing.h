@@ -27,12 +27,21 @@ inline std::vector<Piece> topology(const MeshCheck& check) {
 
 inline std::vector<Piece> topology(const MeshResult& result) { return topology(result.report.check); }
 
+/// For the mesh as traced: what tests of the trace are about.
 inline MeshOptions options(double decay, double isovalue, double spacing, int threads = 1) {
   MeshOptions o;
+  o.improve = false;
   o.decay = decay;
   o.isovalue = isovalue;
   o.spacing = spacing;
   o.threads = threads;
+  return o;
+}
+
+/// For the mesh as it is given out unless told otherwise.
+inline MeshOptions improved(double decay, double isovalue, double spacing, int threads = 1) {
+  MeshOptions o = options(decay, isovalue, spacing, threads);
+  o.improve = true;
   return o;
 }
 

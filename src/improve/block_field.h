@@ -1,0 +1,73 @@
+// The field in one block of space, for many evaluations near the surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "field/gaussian_field.h"
+#include "improve/vectors.h"
+
+namespace gaussmesh {
+
+/// log(phi / c) at a point with its first and second derivatives.
+struct FieldJet {
+  double value = 0.0;
+  Vec3 gradient{};                    ///< 1/A
+  std::array<double, 6> hessian{};    ///< 1/A^2: xx, yy, zz, xy, xz, yz
+};
+
+/// A place on the surface.
+struct Place {
+  Vec3 at{};        ///< A, rounded to whole units
+  Normal normal{};  ///< into the solvent
+};
+
+/// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for each
+/// block. What is left out of the sums is below e^-28 of the isovalue an atom; no bounds are kept, since the verdict on a
+/// finished mesh does not come from here.
+class BlockField {
+ public:
+  BlockField(const GaussianField& field, const Box& box);
+
+  /// The point lies in the box, or near it.
+  FieldJet jet(const Vec3& point);
+
+  /// Newton's method on log phi along its gradient, from a point near the surface.
+  /// @return nothing if that leads farther than `farthest` (A) away, or out of the box
+  /// Cost: one or two sums over the atoms nearby.
+  std::optional<Place> project(const Vec3& point, double farthest);
+
+  const Box& box() const { return box_; }
+
+ private:
+  static constexpr int kMostCells = 16;   ///< along an axis
+  static constexpr double kCut = 28.0;    ///< log-weight, relative to c, below which an atom is left out
+
+  struct AtomList {
+    std::uint32_t first = 0;   ///< where its x, y, z and w follow each other in the pool
+    std::uint32_t count = 0;
+    bool is_made = false;
+  };
+  struct ValueAndGradient {
+    double value;
+    Vec3 gradient;
+  };
+
+  const AtomList& list_at(const Vec3& point);
+  ValueAndGradient evaluate(const Vec3& point);
+
+  double decay_;
+  Box box_;
+  double cell_size_;
+  std::array<int, 3> cells_{};
+  NearAtoms atoms_;
+  std::vector<AtomList> lists_;
+  std::vector<double> pool_;
+};
+
+/// Principal curvature (1/A) of the level set through the jet's point, the larger one in absolute value.
+double largest_curvature(const FieldJet& jet);
+
+}  // namespace gaussmesh

@@ -1,0 +1,90 @@
+// One block of the mesh while it is improved: connectivity, places on the surface, and how large triangles should be.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "improve/block_field.h"
+#include "improve/half_edge_mesh.h"
+#include "improve/vectors.h"
+
+namespace gaussmesh {
+
+/// Vertices of all arrays are numbered alike: first those of the block, then those outside of it that fixed triangles
+/// have, then the new ones.
+struct BlockMesh {
+  HalfEdgeMesh connectivity;             ///< of the triangles that lie in the block
+  std::vector<Triangle> fixed;           ///< those that only reach into it, and stay as they are
+  std::vector<Vec3> at;                  ///< A, whole units
+  std::vector<Normal> normal;
+  std::vector<float> size;               ///< wanted edge (A)
+  std::vector<float> refinement;         ///< factor of the size where neighbouring triangles turned too far
+  std::vector<std::uint8_t> is_active;   ///< to be worked on
+  std::vector<std::uint8_t> is_guarded;  ///< another sheet is near: triangles are kept apart by exact signs
+  Box box;                               ///< vertices stay inside
+
+  void put(std::uint32_t v, const Place& place) {
+    at[v] = place.at;
+    normal[v] = place.normal;
+  }
+  bool contains(const Vec3& p) const {
+    for (int k = 0; k < 3; ++k) {
+      if (!(p[k] >= box.lo[k] && p[k] < box.hi[k])) return false;
+    }
+    return true;
+  }
+};
+
+/// What decides whether a triangle is good: its smallest angle, and how far it is turned from the field.
+struct TriangleQuality {
+  double min_sine = 0.0;        ///< sine of the smallest angle; 0: degenerate
+  double normal_cosine = -1.0;  ///< least cosine between its normal and the field's at the corners
+};
+
+inline constexpr TriangleQuality kPerfect{1.0, 1.0};
+
+inline TriangleQuality worse(const TriangleQuality& a, const TriangleQuality& b) {
+  return {std::min(a.min_sine, b.min_sine), std::min(a.normal_cosine, b.normal_cosine)};
+}
+
+inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3& r, const Normal& np, const Normal& nq,
+                                        const Normal& nr) {
+  const Vec3 u = q - p, v = r - p, w = r - q;
+  const Vec3 n = cross(u, v);
+  const double nn = dot(n, n), uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  TriangleQuality result;
+  if (!(nn > 0.0)) return result;
+  // The smallest angle is opposite to the shortest side: its sine is the doubled area over the other two sides.
+  const double least = std::min({uu, vv, ww});
+  result.min_sine = std::sqrt(nn * least / (uu * vv * ww));
+  result.normal_cosine = std::min({dot(n, np), dot(n, nq), dot(n, nr)}) / std::sqrt(nn);
+  return result;
+}
+
+inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  return triangle_quality(m.at[a], m.at[b], m.at[c], m.normal[a], m.normal[b], m.normal[c]);
+}
+
+inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t t) {
+  const Triangle v = m.connectivity.triangle(t);
+  return triangle_quality(m, v[0], v[1], v[2]);
+}
+
+/// Of the triangles round an inner vertex.
+inline TriangleQuality star_quality(const BlockMesh& mesh, std::uint32_t vertex) {
+  TriangleQuality quality = kPerfect;
+  mesh.connectivity.visit_star(
+      vertex, [&](std::uint32_t h) { quality = worse(quality, triangle_quality(mesh, h / 3)); });
+  return quality;
+}
+
+/// A triangle may be turned this far (cosine; 50 degrees) from the field's normals at its corners, or as far as those
+/// that it replaces were. An equilateral triangle of edge s on a surface of curvature k is turned by k s / sqrt(3).
+inline constexpr double kTurnLimit = 0.64;
+
+/// Whether triangles may take the place of others, as far as the field goes.
+inline bool turn_is_allowed(const TriangleQuality& before, const TriangleQuality& after) {
+  return after.min_sine > 0.0 && after.normal_cosine >= std::min(kTurnLimit, before.normal_cosine);
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,30 @@
+// Arithmetic of points and directions.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/lattice.h"
+
+namespace gaussmesh {
+
+using Normal = std::array<float, 3>;   ///< a unit vector, as it is kept
+
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec3 operator*(double f, const Vec3& a) { return {f * a[0], f * a[1], f * a[2]}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double dot(const Vec3& a, const Normal& b) { return a[0] * double(b[0]) + a[1] * double(b[1]) + a[2] * double(b[2]); }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline Vec3 as_vector(const Normal& n) { return {double(n[0]), double(n[1]), double(n[2])}; }
+
+/// The nearest place that has whole units as coordinates, as the double that a reader of the decimals gets.
+inline CoordPoint to_units(const Vec3& p) {
+  return {std::llround(p[0] * kUnitsPerAngstrom), std::llround(p[1] * kUnitsPerAngstrom),
+          std::llround(p[2] * kUnitsPerAngstrom)};
+}
+
+}  // namespace gaussmesh

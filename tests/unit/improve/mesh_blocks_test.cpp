@@ -1,0 +1,70 @@
+// Cutting a mesh into blocks loses nothing.
+#include "improve/mesh_blocks.h"
+
+#include <map>
+
+#include "catch2.h"
+#include "gaussmesh/check_mesh.h"
+#include "support/meshing.h"
+
+using namespace gaussmesh;
+using namespace gaussmesh::testing;
+
+namespace {
+
+WholeMesh ring_mesh() {
+  const MeshResult traced = mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.5));
+  WholeMesh mesh;
+  mesh.at = traced.mesh.vertices;
+  mesh.normal = traced.normals;
+  mesh.size.assign(mesh.at.size(), 0.5f);
+  mesh.refinement.assign(mesh.at.size(), 1.0f);
+  mesh.triangles = traced.mesh.triangles;
+  return mesh;
+}
+
+/// Triangles by the places of their corners, the least corner first.
+std::map<std::array<Vec3, 3>, int> by_place(const WholeMesh& mesh) {
+  std::map<std::array<Vec3, 3>, int> result;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<Vec3, 3> corners{mesh.at[t[0]], mesh.at[t[1]], mesh.at[t[2]]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    ++result[corners];
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("blocks cut out and joined again are the mesh as it was") {
+  const WholeMesh mesh = ring_mesh();
+  for (const double edge : {1.7, 4.0, 100.0}) {
+    CAPTURE(edge);
+    MeshBlocks blocks(mesh, edge, {0.3, 0.3, 0.3});
+    CHECK((edge > 50.0 || blocks.size() > 1));
+    for (std::size_t b = blocks.size(); b-- > 0;) blocks.store(b, blocks.extract(b));
+    const WholeMesh joined = blocks.join(2);
+    CHECK(joined.at.size() == mesh.at.size());
+    CHECK(by_place(joined) == by_place(mesh));
+  }
+}
+
+TEST_CASE("a block's triangles lie in its box, and what reaches into the box is there") {
+  const WholeMesh mesh = ring_mesh();
+  const MeshBlocks blocks(mesh, 2.5, {0.1, 0.2, 0.3});
+  std::size_t inner = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const BlockMesh block = blocks.extract(b);
+    inner += block.connectivity.triangles();
+    for (std::uint32_t t = 0; t < block.connectivity.triangles(); ++t) {
+      for (const std::uint32_t v : block.connectivity.triangle(t)) CHECK(block.contains(block.at[v]));
+    }
+    for (const Triangle& t : block.fixed) {
+      int inside = 0;
+      for (const std::uint32_t v : t) inside += block.contains(block.at[v]);
+      CHECK(inside < 3);
+    }
+  }
+  CHECK(inner > mesh.triangles.size() / 3);
+  CHECK(inner < mesh.triangles.size());
+}
