@@ -10,7 +10,7 @@
 namespace gaussmesh {
 namespace {
 
-constexpr double kCellSize = 1.5;   // A: small beside the reach of an atom, large beside a triangle
+constexpr double kCellSize = 1.5;  // A: small beside the reach of an atom, large beside a triangle
 
 /// Lists are asked for with points this much outside their cells (in cells) by way of a Newton step.
 constexpr double kMargin = 0.1;
@@ -122,7 +122,8 @@ BlockField::ValueAndGradient BlockField::evaluate(const Vec3& p) {
 FieldJet BlockField::jet(const Vec3& p) {
   const AtomList& list = list_at(p);
   const SecondSums s = second_moments(pool_.data() + list.first, list.count, decay_, p[0], p[1], p[2]);
-  // grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by phi_i.
+  // grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by
+  // phi_i.
   const double f = 1.0 / s.first.total, d = decay_;
   const Vec3 m{f * s.first.x, f * s.first.y, f * s.first.z};
   FieldJet jet;
@@ -154,8 +155,8 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest) {
 }
 
 double largest_curvature(const FieldJet& jet) {
-  // In an orthonormal frame (t1, t2) of the tangent plane the shape operator is the Hessian over the slope; its larger
-  // eigenvalue in absolute value is |H| + sqrt(H^2 - K) of the mean and Gaussian curvature.
+  // In an orthonormal frame (t1, t2) of the tangent plane the shape operator is the Hessian over the slope; its
+  // larger eigenvalue in absolute value is |H| + sqrt(H^2 - K) of the mean and Gaussian curvature.
   const Vec3& g = jet.gradient;
   const double slope = length(g);
   const Vec3 n = 1.0 / slope * g;

@@ -14,8 +14,8 @@ namespace gaussmesh {
 /// log(phi / c) at a point with its first and second derivatives.
 struct FieldJet {
   double value = 0.0;
-  Vec3 gradient{};                    ///< 1/A
-  std::array<double, 6> hessian{};    ///< 1/A^2: xx, yy, zz, xy, xz, yz
+  Vec3 gradient{};                  ///< 1/A
+  std::array<double, 6> hessian{};  ///< 1/A^2: xx, yy, zz, xy, xz, yz
 };
 
 /// A place on the surface.
@@ -24,9 +24,9 @@ struct Place {
   Normal normal{};  ///< into the solvent
 };
 
-/// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for each
-/// block. What is left out of the sums is below e^-28 of the isovalue an atom; no bounds are kept, since the verdict on a
-/// finished mesh does not come from here.
+/// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
+/// each block. What is left out of the sums is below e^-28 of the isovalue an atom; no bounds are kept, since the
+/// verdict on a finished mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);
@@ -42,11 +42,11 @@ class BlockField {
   const Box& box() const { return box_; }
 
  private:
-  static constexpr int kMostCells = 16;   ///< along an axis
-  static constexpr double kCut = 28.0;    ///< log-weight, relative to c, below which an atom is left out
+  static constexpr int kMostCells = 16;  ///< along an axis
+  static constexpr double kCut = 28.0;   ///< log-weight, relative to c, below which an atom is left out
 
   struct AtomList {
-    std::uint32_t first = 0;   ///< where its x, y, z and w follow each other in the pool
+    std::uint32_t first = 0;  ///< where its x, y, z and w follow each other in the pool
     std::uint32_t count = 0;
     bool is_made = false;
   };

@@ -1,4 +1,5 @@
-// One block of the mesh while it is improved: connectivity, places on the surface, and how large triangles should be.
+// One block of the mesh while it is improved: connectivity, places on the surface, and how large triangles should
+// be.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +11,12 @@
 
 namespace gaussmesh {
 
-/// Vertices of all arrays are numbered alike: first those of the block, then those outside of it that fixed triangles
-/// have, then the new ones.
+/// Vertices of all arrays are numbered alike: first those of the block, then those outside of it that fixed
+/// triangles have, then the new ones.
 struct BlockMesh {
-  HalfEdgeMesh connectivity;             ///< of the triangles that lie in the block
-  std::vector<Triangle> fixed;           ///< those that only reach into it, and stay as they are
-  std::vector<Vec3> at;                  ///< A, whole units
+  HalfEdgeMesh connectivity;    ///< of the triangles that lie in the block
+  std::vector<Triangle> fixed;  ///< those that only reach into it, and stay as they are
+  std::vector<Vec3> at;         ///< A, whole units
   std::vector<Normal> normal;
   std::vector<float> size;               ///< wanted edge (A)
   std::vector<float> refinement;         ///< factor of the size where neighbouring triangles turned too far
@@ -47,8 +48,8 @@ inline TriangleQuality worse(const TriangleQuality& a, const TriangleQuality& b)
   return {std::min(a.min_sine, b.min_sine), std::min(a.normal_cosine, b.normal_cosine)};
 }
 
-inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3& r, const Normal& np, const Normal& nq,
-                                        const Normal& nr) {
+inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3& r, const Normal& np,
+                                        const Normal& nq, const Normal& nr) {
   const Vec3 u = q - p, v = r - p, w = r - q;
   const Vec3 n = cross(u, v);
   const double nn = dot(n, n), uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
@@ -73,13 +74,14 @@ inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t t) {
 /// Of the triangles round an inner vertex.
 inline TriangleQuality star_quality(const BlockMesh& mesh, std::uint32_t vertex) {
   TriangleQuality quality = kPerfect;
-  mesh.connectivity.visit_star(
-      vertex, [&](std::uint32_t h) { quality = worse(quality, triangle_quality(mesh, h / 3)); });
+  mesh.connectivity.visit_star(vertex,
+                               [&](std::uint32_t h) { quality = worse(quality, triangle_quality(mesh, h / 3)); });
   return quality;
 }
 
-/// A triangle may be turned this far (cosine; 50 degrees) from the field's normals at its corners, or as far as those
-/// that it replaces were. An equilateral triangle of edge s on a surface of curvature k is turned by k s / sqrt(3).
+/// A triangle may be turned this far (cosine; 50 degrees) from the field's normals at its corners, or as far as
+/// those that it replaces were. An equilateral triangle of edge s on a surface of curvature k is turned by k s /
+/// sqrt(3).
 inline constexpr double kTurnLimit = 0.64;
 
 /// Whether triangles may take the place of others, as far as the field goes.

@@ -128,7 +128,7 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
   mesh.put(v, place);
   const TriangleQuality after = star_quality(mesh, v);
   bool allowed = after.min_sine >= least_sine && after.normal_cosine >= kTurnLimit;
-  if (!allowed) {   // as good as before is good enough
+  if (!allowed) {  // as good as before is good enough
     mesh.put(v, old);
     const TriangleQuality before = star_quality(mesh, v);
     allowed = after.min_sine >= std::min(least_sine, before.min_sine) && turn_is_allowed(before, after);
@@ -151,7 +151,7 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
 
 std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor) {
   const HalfEdgeMesh& c = mesh.connectivity;
-  const Index count = c.half_edges();   // new edges have their turn in the next round
+  const Index count = c.half_edges();  // new edges have their turn in the next round
   std::size_t made = 0;
   for (Index h = 0; h < count; ++h) {
     if (!names_edge(mesh, h)) continue;
@@ -165,14 +165,15 @@ std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& fie
 }
 
 std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double factor) {
-  constexpr double kLongest = 1.5;   // times the wanted size: a collapse must not make edges to be split again
+  constexpr double kLongest = 1.5;  // times the wanted size: a collapse must not make edges to be split again
   const HalfEdgeMesh& c = mesh.connectivity;
   std::size_t made = 0;
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!names_edge(mesh, h)) continue;
     const double size = wanted_size(mesh, h);
     if (edge_length_sq(mesh, h) >= factor * size * factor * size) continue;
-    if (try_collapse(mesh, guard, h, kLongest * size) || try_collapse(mesh, guard, c.twin(h), kLongest * size)) ++made;
+    if (try_collapse(mesh, guard, h, kLongest * size) || try_collapse(mesh, guard, c.twin(h), kLongest * size))
+      ++made;
   }
   return made;
 }

@@ -8,8 +8,8 @@ namespace gaussmesh {
 
 /// An operation is refused if it breaks the link condition, turns a triangle by more than kTurnLimit (or more than
 /// those it replaces) from the field, leaves the block, or lets triangles meet where another sheet is near. So the
-/// mesh keeps its topology, its side and its embedding. Each function goes through the block once, in the order of its
-/// numbers, and returns how many operations it made.
+/// mesh keeps its topology, its side and its embedding. Each function goes through the block once, in the order of
+/// its numbers, and returns how many operations it made.
 
 /// Splits edges longer than `factor` times the wanted size in the middle; new vertices are put on the surface.
 std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor);
@@ -28,8 +28,8 @@ bool try_flip(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge);
 bool try_collapse(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, double longest);
 bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t half_edge, const Place& middle);
 
-/// Moves an inner vertex, unless that turns or meets triangles; the smallest angle round it may fall to `least_sine`,
-/// or to where it was.
+/// Moves an inner vertex, unless that turns or meets triangles; the smallest angle round it may fall to
+/// `least_sine`, or to where it was.
 bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t vertex, const Place& place, double least_sine);
 
 }  // namespace gaussmesh

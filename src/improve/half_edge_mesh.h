@@ -11,9 +11,9 @@ namespace gaussmesh {
 
 /// Connectivity of an oriented 2-manifold of triangles, with or without boundary. Geometry is the caller's.
 ///
-/// Half-edge 3 t + i runs from corner i of triangle t to corner i + 1. A vertex is inner if the triangles round it are
-/// a closed fan. Every operation keeps the mesh a manifold of the same topology and its boundary as it is, or is
-/// refused.
+/// Half-edge 3 t + i runs from corner i of triangle t to corner i + 1. A vertex is inner if the triangles round it
+/// are a closed fan. Every operation keeps the mesh a manifold of the same topology and its boundary as it is, or
+/// is refused.
 class HalfEdgeMesh {
  public:
   using Index = std::uint32_t;
@@ -54,18 +54,19 @@ class HalfEdgeMesh {
   /// u is inner.
   bool are_neighbours(Index u, Index v) const;
 
-  /// Whether the edge, not on the boundary, may turn within its two triangles: the other diagonal is not an edge yet,
-  /// and no valence falls below 3. Refused where the fans that tell are not all here.
+  /// Whether the edge, not on the boundary, may turn within its two triangles: the other diagonal is not an edge
+  /// yet, and no valence falls below 3. Refused where the fans that tell are not all here.
   bool can_flip(Index h) const;
   void flip(Index h);
 
-  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3. Refused unless all
-  /// four are inner.
+  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3. Refused unless
+  /// all four are inner.
   bool can_collapse(Index h) const;
   /// Moves from(h) into to(h): the vertex from(h) and two triangles are gone.
   void collapse(Index h);
 
-  /// Puts a new vertex in an edge that is not on the boundary. @return its number, the next one: vertices() before the call
+  /// Puts a new vertex in an edge that is not on the boundary. @return its number, the next one: vertices() before
+  /// the call
   Index split(Index h);
 
  private:
@@ -75,7 +76,7 @@ class HalfEdgeMesh {
 
   std::vector<Index> corners_;
   std::vector<Index> twin_;
-  std::vector<Index> out_;   ///< a half-edge that leaves the vertex
+  std::vector<Index> out_;  ///< a half-edge that leaves the vertex
   std::vector<std::uint8_t> inner_;
 };
 

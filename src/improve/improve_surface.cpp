@@ -19,20 +19,20 @@ constexpr double kCollapseFactor = 0.7;
 /// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
 constexpr double kBlockEdge = 24.0;
 
-/// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this factor, so
-/// that the mean edge is what was asked for.
+/// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this
+/// factor, so that the mean edge is what was asked for.
 constexpr double kLargestFactor = 1.15;
 
 /// Where triangles are much too large they are first cut to size.
 constexpr int kMostHalvings = 4;
 
-constexpr double kLeastAngle = 31.0;   // degrees; a little above what is promised
+constexpr double kLeastAngle = 31.0;  // degrees; a little above what is promised
 constexpr int kRepairRounds = 3;
 
-/// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that follow
-/// each other: a place near planes of all three axes in three of them is free in the fourth.
+/// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that
+/// follow each other: a place near planes of all three axes in three of them is free in the fourth.
 struct Sweep {
-  int rounds = 0;         ///< of splits, collapses, flips and relaxation
+  int rounds = 0;  ///< of splits, collapses, flips and relaxation
   bool repairs = false;
   bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
 };
@@ -141,7 +141,8 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
-    if (&sweep == &kSweeps[1]) now.largest = targets.spacing * std::clamp(targets.spacing / mean_edge(mesh), 1.0, kLargestFactor);
+    if (&sweep == &kSweeps[1])
+      now.largest = targets.spacing * std::clamp(targets.spacing / mean_edge(mesh), 1.0, kLargestFactor);
   }
   return finish(std::move(mesh));
 }

@@ -18,15 +18,16 @@ struct SurfaceMesh {
 
 /// How triangles are kept from meeting.
 enum class Guarding {
-  kCloseSheets,   ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
-  kEverywhere,    ///< exact tests of every change
+  kCloseSheets,  ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
+  kEverywhere,   ///< exact tests of every change
 };
 
 /// Makes the triangles of `traced` nearly equilateral with edges of about the spacing, smaller where the surface
-/// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt 2004],
-/// then repairs of the worst triangles one by one. Every vertex stays on the surface; topology and orientation are
-/// kept by vetoes on every operation, and triangles are kept apart by exact signs. The work is done in blocks of space
-/// whose planes lie elsewhere in each sweep (mesh_blocks.h): the same bits for any number of threads.
+/// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt
+/// 2004], then repairs of the worst triangles one by one. Every vertex stays on the surface; topology and
+/// orientation are kept by vetoes on every operation, and triangles are kept apart by exact signs. The work is done
+/// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h): the same bits for any number of
+/// threads.
 ///
 /// @param traced   closed, oriented, embedded
 /// @param targets  spacing at most kLargestSpacing; `largest` is found here
@@ -34,7 +35,8 @@ enum class Guarding {
 SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
                             Guarding guarding, int threads);
 
-/// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for (core/exact_space.h).
+/// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for
+/// (core/exact_space.h).
 inline constexpr double kLargestSpacing = 200.0;
 
 }  // namespace gaussmesh

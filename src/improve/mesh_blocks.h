@@ -9,18 +9,18 @@ namespace gaussmesh {
 
 /// The whole mesh between two sweeps.
 struct WholeMesh {
-  std::vector<Vec3> at;            ///< A, whole units
+  std::vector<Vec3> at;  ///< A, whole units
   std::vector<Normal> normal;
-  std::vector<float> size;         ///< wanted edge (A)
+  std::vector<float> size;  ///< wanted edge (A)
   std::vector<float> refinement;
   std::vector<Triangle> triangles;
 };
 
 /// The mesh, cut by the planes of a cubic grid.
 ///
-/// A triangle belongs to the block in which all its corners lie; those that cross a plane belong to none and stay as
-/// they are. Blocks are convex and keep their vertices, so triangles of two blocks can never meet, whatever is done
-/// within each: blocks may be worked on in any order, and on several threads, with the same result.
+/// A triangle belongs to the block in which all its corners lie; those that cross a plane belong to none and stay
+/// as they are. Blocks are convex and keep their vertices, so triangles of two blocks can never meet, whatever is
+/// done within each: blocks may be worked on in any order, and on several threads, with the same result.
 class MeshBlocks {
  public:
   /// @param edge   A, of the cubes: many times that of the triangles
@@ -36,23 +36,23 @@ class MeshBlocks {
   /// Keeps what became of a block. Thread-safe for different blocks.
   void store(std::size_t block, BlockMesh&& worked);
 
-  /// The mesh of all stored blocks and of the triangles between them, blocks in the order of their first vertices. All
-  /// blocks have been stored.
+  /// The mesh of all stored blocks and of the triangles between them, blocks in the order of their first vertices.
+  /// All blocks have been stored.
   WholeMesh join(int threads);
 
  private:
   struct Stored {
-    std::vector<std::uint32_t> number;   ///< of the block's vertices, those of before first, in what is kept
+    std::vector<std::uint32_t> number;  ///< of the block's vertices, those of before first, in what is kept
     WholeMesh part;
   };
 
   const WholeMesh& mesh_;
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> block_of_, local_;                  ///< by vertex
-  std::vector<std::uint32_t> first_vertex_, vertices_;           ///< by block
-  std::vector<std::uint32_t> first_triangle_, triangles_;        ///< by block
-  std::vector<std::uint32_t> first_fixed_, fixed_;               ///< by block: triangles that reach into its box
-  std::vector<std::uint32_t> between_;                           ///< triangles of no block
+  std::vector<std::uint32_t> block_of_, local_;            ///< by vertex
+  std::vector<std::uint32_t> first_vertex_, vertices_;     ///< by block
+  std::vector<std::uint32_t> first_triangle_, triangles_;  ///< by block
+  std::vector<std::uint32_t> first_fixed_, fixed_;         ///< by block: triangles that reach into its box
+  std::vector<std::uint32_t> between_;                     ///< triangles of no block
   std::vector<Stored> stored_;
 };
 

@@ -15,7 +15,7 @@ Vec3 ideal_place(const BlockMesh& mesh, Index v) {
     const Vec3 a = mesh.at[c.to(h)], b = mesh.at[c.opposite(h)];
     const Vec3 e = b - a, u = p - a;
     const double ee = dot(e, e);
-    const Vec3 across = u - dot(u, e) / ee * e;   // from the side to p, across it
+    const Vec3 across = u - dot(u, e) / ee * e;  // from the side to p, across it
     const Vec3 ideal = 0.5 * (a + b) + 0.8660254 * std::sqrt(ee) / length(across) * across;
     const double weight = 1.0 / ee;
     sum = sum + weight * (ideal - p);

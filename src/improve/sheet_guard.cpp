@@ -33,11 +33,11 @@ constexpr double kOtherSheet = 0.25;
 /// Edges are rarely longer than this many wanted sizes; farther away triangles do not reach.
 constexpr double kReachInSizes = 1.6;
 
-
 /// The vertices of a block in a grid of cells as wide as `reach`.
 class VertexGrid {
  public:
-  VertexGrid(const BlockMesh& mesh, double reach) : mesh_(mesh), reach_(reach), first_(kCells * kCells * kCells + 1, 0) {
+  VertexGrid(const BlockMesh& mesh, double reach)
+      : mesh_(mesh), reach_(reach), first_(kCells * kCells * kCells + 1, 0) {
     // Cells no narrower than the reach; what lies outside the box goes to the cells at its sides.
     double width = 0.0;
     for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
@@ -62,8 +62,8 @@ class VertexGrid {
       std::array<std::uint32_t, 27> near;
       std::size_t count = 0;
       NormalBox normals;
-      const std::array<int, 3> at{static_cast<int>(cell) / (kCells * kCells), static_cast<int>(cell) / kCells % kCells,
-                                  static_cast<int>(cell) % kCells};
+      const std::array<int, 3> at{static_cast<int>(cell) / (kCells * kCells),
+                                  static_cast<int>(cell) / kCells % kCells, static_cast<int>(cell) % kCells};
       for (int i = std::max(0, at[0] - 1); i <= std::min(kCells - 1, at[0] + 1); ++i) {
         for (int j = std::max(0, at[1] - 1); j <= std::min(kCells - 1, at[1] + 1); ++j) {
           for (int k = std::max(0, at[2] - 1); k <= std::min(kCells - 1, at[2] + 1); ++k) {

@@ -19,8 +19,9 @@ class SheetGuard {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
   }
 
-  /// Whether `t`, a triangle that is to be, may meet one of the block or from outside; triangles of the block of which
-  /// `ignored` says so do not count. Exact in general position; errs on the side of true where points are coplanar.
+  /// Whether `t`, a triangle that is to be, may meet one of the block or from outside; triangles of the block of
+  /// which `ignored` says so do not count. Exact in general position; errs on the side of true where points are
+  /// coplanar.
   template <typename Ignored>
   bool may_meet(const BlockMesh& mesh, const Triangle& t, const Ignored& ignored) const {
     const SmallBox box = box_of(mesh, t);
@@ -46,7 +47,7 @@ class SheetGuard {
 
  private:
   static constexpr std::uint32_t kFirstFixed = 0x80000000u;
-  static constexpr int kMostCells = 48;   ///< along an axis
+  static constexpr int kMostCells = 48;  ///< along an axis
 
   /// A box that holds a triangle, by floats rounded outwards, from a corner of the block.
   struct SmallBox {
@@ -62,7 +63,7 @@ class SheetGuard {
     std::uint32_t triangle;
     std::int32_t next;
     SmallBox box;
-    Normal normal;   ///< mean of the field's at the corners, not of unit length
+    Normal normal;  ///< mean of the field's at the corners, not of unit length
   };
 
   static bool pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t);
@@ -78,12 +79,12 @@ class SheetGuard {
 
   /// Triangles of one sheet are kept apart by the limit on their turn from the field.
   static bool are_of_one_sheet(const Normal& m, const Normal& n) {
-    constexpr float kSameSheet = 0.4f;   // cosine, times the lengths, which are less than 1 where normals differ
+    constexpr float kSameSheet = 0.4f;  // cosine, times the lengths, which are less than 1 where normals differ
     return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > kSameSheet;
   }
 
   SmallBox box_of(const BlockMesh& mesh, const Triangle& t) const {
-    constexpr float kSlack = 1e-5f;   // relative: two roundings, and the subtraction of the corner
+    constexpr float kSlack = 1e-5f;  // relative: two roundings, and the subtraction of the corner
     SmallBox box;
     for (int k = 0; k < 3; ++k) {
       const auto [least, most] = std::minmax({mesh.at[t[0]][k], mesh.at[t[1]][k], mesh.at[t[2]][k]});

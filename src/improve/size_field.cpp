@@ -8,8 +8,8 @@ using Index = HalfEdgeMesh::Index;
 double wanted_size(const FieldJet& jet, const SizeTargets& targets) {
   const double curvature = largest_curvature(jet);
   double size = std::min(kTurnPerEdge / curvature, targets.largest);
-  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the surface;
-  // edges may be up to half as long again as wanted.
+  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
+  // surface; edges may be up to half as long again as wanted.
   if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
   return std::max(size, kLeastSize * targets.spacing);
 }
@@ -56,7 +56,8 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
     const Index u = c.from(h), v = c.to(h);
     const double turn = length(as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]));
     if (turn <= kTurnBetweenEnds) continue;
-    const double most = std::max(kTurnBetweenEnds / turn * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
+    const double most =
+        std::max(kTurnBetweenEnds / turn * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
     mesh.size[u] = std::min(mesh.size[u], static_cast<float>(most));
     mesh.size[v] = std::min(mesh.size[v], static_cast<float>(most));
   }
@@ -64,7 +65,7 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
 }
 
 std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
-  constexpr double kSharp = 0.52;   // cosine of 58 degrees
+  constexpr double kSharp = 0.52;  // cosine of 58 degrees
   constexpr float kSmaller = 0.8f;
   constexpr float kLeastRefinement = 0.4f;
   const HalfEdgeMesh& c = mesh.connectivity;

@@ -7,13 +7,14 @@ namespace gaussmesh {
 
 /// What is asked of the sizes of triangles.
 struct SizeTargets {
-  double spacing = 0.5;     ///< A: the wanted mean edge
-  double tolerance = 0.0;   ///< A: farthest that triangles may be from the surface; 0: no limit
-  double largest = 0.5;     ///< A: the wanted edge where nothing asks for less
+  double spacing = 0.5;    ///< A: the wanted mean edge
+  double tolerance = 0.0;  ///< A: farthest that triangles may be from the surface; 0: no limit
+  double largest = 0.5;    ///< A: the wanted edge where nothing asks for less
 };
 
-/// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at either.
-/// On a cylinder of radius R equilateral triangles of edge s turn by up to 2 asin(0.87 s / 2 R) against each other.
+/// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at
+/// either. On a cylinder of radius R equilateral triangles of edge s turn by up to 2 asin(0.87 s / 2 R) against
+/// each other.
 inline constexpr double kTurnPerEdge = 1.1;
 
 /// The same by the normals at both ends: between them the surface may curve more than at either.
@@ -25,9 +26,9 @@ inline constexpr double kGrowth = 0.4;
 /// No edge is wanted shorter than this part of the spacing.
 inline constexpr double kLeastSize = 0.03;
 
-/// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge turns the
-/// normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and growing by no
-/// more than kGrowth per A from there. Sizes of vertices outside the block are taken as they are.
+/// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge
+/// turns the normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and
+/// growing by no more than kGrowth per A from there. Sizes of vertices outside the block are taken as they are.
 /// Cost: one sum over the atoms nearby for each vertex.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 

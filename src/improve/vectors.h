@@ -8,13 +8,15 @@
 
 namespace gaussmesh {
 
-using Normal = std::array<float, 3>;   ///< a unit vector, as it is kept
+using Normal = std::array<float, 3>;  ///< a unit vector, as it is kept
 
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec3 operator*(double f, const Vec3& a) { return {f * a[0], f * a[1], f * a[2]}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline double dot(const Vec3& a, const Normal& b) { return a[0] * double(b[0]) + a[1] * double(b[1]) + a[2] * double(b[2]); }
+inline double dot(const Vec3& a, const Normal& b) {
+  return a[0] * double(b[0]) + a[1] * double(b[1]) + a[2] * double(b[2]);
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

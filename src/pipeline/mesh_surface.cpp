@@ -121,14 +121,14 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
   const auto coordinate = [&](int k) { return number_text(std::round(first.point[k] * 1e6) / 1e6 + 0.0, 13); };
   std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at (" +
                         coordinate(0) + ", " + coordinate(1) + ", " + coordinate(2) +
-                        ") the surface is singular at c = " + number_text(first.value, 15) + ", " + number_text(std::abs(isovalue - first.value), 3) +
-                        " away";
+                        ") the surface is singular at c = " + number_text(first.value, 15) + ", " +
+                        number_text(std::abs(isovalue - first.value), 3) + " away";
   if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
 }
 
-/// Where triangles are improved, cells are split in which the surface turns by more than 78 degrees: what is too coarse
-/// for its curvature cannot be mended by moving vertices.
+/// Where triangles are improved, cells are split in which the surface turns by more than 78 degrees: what is too
+/// coarse for its curvature cannot be mended by moving vertices.
 constexpr double kLeastCornerCosine = 0.2;
 
 TraceDemands trace_demands(const MeshOptions& options) {
@@ -147,7 +147,8 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
       if (trace.uncertified.empty()) return trace;
     }
   }
-  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) + " can be certified");
+  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) +
+                        " can be certified");
 }
 
 /// V - F / 2, which is the Euler number of a closed mesh.
@@ -181,8 +182,8 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
 }
 
 /// Improves a traced mesh; `result` gets it with the judge's verdict. @return whether it may be given out
-bool improve(SurfaceMesh traced, const GaussianField& field, const MeshOptions& options, Guarding guarding, int threads,
-             Stopwatch& watch, MeshResult& result) {
+bool improve(SurfaceMesh traced, const GaussianField& field, const MeshOptions& options, Guarding guarding,
+             int threads, Stopwatch& watch, MeshResult& result) {
   const std::int64_t chi = euler_number(traced);
   SizeTargets targets;
   targets.spacing = options.spacing;

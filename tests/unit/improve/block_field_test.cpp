@@ -9,7 +9,8 @@ using namespace gaussmesh;
 
 namespace {
 
-const std::vector<Atom> kAtoms{{0, 0, 0, 1.7, 0}, {1.5, 0.3, -0.2, 1.2, 0}, {-0.4, 1.9, 0.8, 1.5, 0}, {3, 3, 3, 1.8, 0}};
+const std::vector<Atom> kAtoms{
+    {0, 0, 0, 1.7, 0}, {1.5, 0.3, -0.2, 1.2, 0}, {-0.4, 1.9, 0.8, 1.5, 0}, {3, 3, 3, 1.8, 0}};
 const Box kBox{{-5, -5, -5}, {7, 7, 7}};
 
 }  // namespace
@@ -35,7 +36,8 @@ TEST_CASE("gradient and Hessian are the derivatives of log phi") {
       CHECK(jet.gradient[k] == Approx((a.value - b.value) / (2 * step)).margin(1e-6));
       for (int i = 0; i < 6; ++i) {
         if (pairs[i][1] != k) continue;
-        CHECK(jet.hessian[i] == Approx((a.gradient[pairs[i][0]] - b.gradient[pairs[i][0]]) / (2 * step)).margin(1e-6));
+        CHECK(jet.hessian[i] ==
+              Approx((a.gradient[pairs[i][0]] - b.gradient[pairs[i][0]]) / (2 * step)).margin(1e-6));
       }
     }
   }
@@ -44,7 +46,7 @@ TEST_CASE("gradient and Hessian are the derivatives of log phi") {
 TEST_CASE("the surface of one atom is a sphere: its curvature, and the way to it") {
   const double d = 0.6, c = 1.7, r = 2.0;
   const GaussianField field({{0.5, -0.25, 1.0, r, 0}}, d, c);
-  const double radius = std::sqrt(r * r - std::log(c) / d);   // |x|^2 = r^2 - ln(c) / d
+  const double radius = std::sqrt(r * r - std::log(c) / d);  // |x|^2 = r^2 - ln(c) / d
   BlockField block(field, kBox);
   for (const Vec3& p : {Vec3{2.4, 0.1, 1.3}, Vec3{0.3, 1.7, 0.2}, Vec3{0.5, -0.25, 2.5}}) {
     const auto place = block.project(p, 1.0);
@@ -57,7 +59,7 @@ TEST_CASE("the surface of one atom is a sphere: its curvature, and the way to it
     }
     CHECK(largest_curvature(block.jet(place->at)) == Approx(1.0 / radius).epsilon(1e-6));
   }
-  CHECK_FALSE(block.project({3.5, -0.25, 1.0}, 0.1));   // the surface is farther than allowed
+  CHECK_FALSE(block.project({3.5, -0.25, 1.0}, 0.1));  // the surface is farther than allowed
 }
 
 TEST_CASE("two spheres that touch: the neck curves more than either") {

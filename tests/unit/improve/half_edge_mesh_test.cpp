@@ -64,8 +64,8 @@ TEST_CASE("a tetrahedron has no edge to flip or to collapse") {
 }
 
 TEST_CASE("an edge whose ends have a third neighbour in common is not collapsed") {
-  // A triangle of edges 0-1-2 round the waist of a double pyramid with apexes 3 and 4: no waist edge may go, since the
-  // third corner of the waist is a neighbour of both ends without a triangle there.
+  // A triangle of edges 0-1-2 round the waist of a double pyramid with apexes 3 and 4: no waist edge may go, since
+  // the third corner of the waist is a neighbour of both ends without a triangle there.
   const HalfEdgeMesh m({{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}}, 5);
   for (Index h = 0; h < m.half_edges(); ++h) {
     if (m.from(h) < 3 && m.to(h) < 3) CHECK_FALSE(m.can_collapse(h));
@@ -122,7 +122,7 @@ TEST_CASE("at a boundary nothing is changed that is not all there") {
     CHECK_FALSE(m.can_flip(h));
     CHECK_FALSE(m.can_collapse(h));
   }
-  const Index middle = m.split(0);   // the edge from 0 to 1
+  const Index middle = m.split(0);  // the edge from 0 to 1
   CHECK(m.is_inner(middle));
   CHECK(m.valence(middle) == 4);
   CHECK(m.valence(0) == 6);
