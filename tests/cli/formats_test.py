@@ -166,6 +166,18 @@ class TetGen(FormatTest):
         self.assertAlmostEqual(volume / signed_volume(self.points, self.triangles), 1.0, delta=1e-5)  # TetGen merges facets that are nearly coplanar
         self.assertEqual(regions, {1})
 
+    def test_takes_the_triangles_as_they_are_for_a_mesh_of_good_shape(self):
+        for name in ["1a1p", "1bna"]:
+            with self.subTest(name):
+                self.expect(0, self.molecule(name), "-o", f"{name}.off")
+                run = subprocess.run(["tetgen", "-pq1.4/0", f"{name}.off"], cwd=self.folder, capture_output=True, text=True,
+                                     timeout=280)
+                self.assertEqual(run.returncode, 0)
+                self.assertNotRegex(run.stdout + run.stderr, "(?i)error|warning|intersect|degenerate|skipped")
+                points, triangles = read_off(self.folder / f"{name}.off")
+                tetrahedra = int((self.folder / f"{name}.1.ele").read_text().split()[0])
+                self.assertGreater(tetrahedra, len(triangles))
+
     def test_several_solids_and_nested_ones(self):
         """A ball in the cavity of a shell, and one beside it: two holes would be one too many."""
         molecule = ["ATOM 1 C X 1 0.0 0.0 0.0 0.0 1.5", "ATOM 2 C X 1 30.0 0.0 0.0 0.0 1.5"]
