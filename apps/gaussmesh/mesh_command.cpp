@@ -194,13 +194,15 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->check(CLI::Range(1e-6, 1e4))
       ->excludes(spacing)
       ->group(triangles);
-  program
-      .add_option("--tolerance", command.options.tolerance,
-                  "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; default 0: "
-                  "no limit)")
-      ->type_name("T")
-      ->group(triangles);
+  CLI::Option* tolerance =
+      program
+          .add_option("--tolerance", command.options.tolerance,
+                      "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; default "
+                      "0: no limit)")
+          ->type_name("T")
+          ->group(triangles);
   program.add_flag("!--raw", command.options.improve, "leave the triangles as traced, slivers and all")
+      ->excludes(tolerance)
       ->group(triangles);
 
   const std::string output = "Output";
@@ -232,6 +234,7 @@ int run_mesh(const MeshCommand& given) {
   require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
   const std::vector<Atom> atoms = read_molecule(command.molecule, command.reading, command.quiet);
   MeshOptions options = command.options;
+  options.measure_distance = !command.report.empty();
   MeshResult result = [&] {
     ProgressBar bar(!command.quiet);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };

@@ -21,7 +21,8 @@ struct MeshOptions {
   double isovalue = 1.7;            ///< c, 1e-9 to 1e9
   double spacing = 0.5;             ///< edge of the cells (A), 0.01 to 1000: the size of the triangles
   bool improve = true;              ///< make the triangles nearly equilateral; otherwise they stay as traced
-  double tolerance = 0.0;           ///< farthest that triangles are to be from the surface (A), to 1000; 0: no limit
+  double tolerance = 0.0;           ///< largest MeshReport::surface_distance (A), to 1000; 0: no limit
+  bool measure_distance = false;    ///< fill MeshReport::surface_distance also where there is no tolerance
   int threads = 0;                  ///< 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
@@ -67,6 +68,7 @@ struct MeshReport {
   std::size_t cells_split = 0;      ///< cells of any size that were cut in eight
   bool certified = false;           ///< the mesh has exactly the topology of the surface, proven by bounds
   std::vector<CriticalPlace> critical;   ///< where a proof would need boxes below the depth limit
+  std::optional<double> surface_distance; ///< A, the larger way of two_sided_distance(): triangles and surface
   double vertex_distance_max = 0.0; ///< A, largest distance of a vertex from phi = c
   MeshCheck check;                  ///< what the judge found of the triangles
   std::vector<StageCost> stages;
@@ -87,8 +89,8 @@ struct MeshResult {
 /// threads and any order of the atoms. Time and memory grow with the area of the surface over the square of the spacing,
 /// and with the number of atoms.
 ///
-/// @throws OptionError      if an option is out of its range
-/// @throws CannotMeshError  if phi < c everywhere, or if c is so near a critical value that the topology is not certain
+/// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
+/// @throws CannotMeshError  if phi < c everywhere, if the tolerance is not reached, or if c is so near a critical value that the topology is not certain
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options);
 
 /// The report as JSON; lengths in A and units spelt in the keys.

@@ -12,6 +12,7 @@
 #include "field/gaussian_field.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
+#include "gaussmesh/two_sided_distance.h"
 #include "pipeline/critical_point.h"
 #include "pipeline/trace_surface.h"
 
@@ -63,6 +64,10 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_range("spacing", options.spacing, 0.01, 1000.0, " (A)");
   check_range("tolerance", options.tolerance, 0.0, 1000.0, " (A)");
   check_range("threads", options.threads, 0, 4096, "");
+  if (!options.improve && options.tolerance > 0.0) {
+    throw OptionError("tolerance: expected 0 where the mesh is to stay as traced, got '" +
+                      number_text(options.tolerance) + "'");
+  }
   if (options.improve && options.spacing > kLargestSpacing) {
     throw OptionError("spacing: expected at most " + number_text(kLargestSpacing) +
                       " A unless the mesh is to stay as traced, got '" + number_text(options.spacing) + "'");
@@ -182,12 +187,9 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
 }
 
 /// Improves a traced mesh; `result` gets it with the judge's verdict. @return whether it may be given out
-bool improve(SurfaceMesh traced, const GaussianField& field, const MeshOptions& options, Guarding guarding,
+bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
              int threads, Stopwatch& watch, MeshResult& result) {
   const std::int64_t chi = euler_number(traced);
-  SizeTargets targets;
-  targets.spacing = options.spacing;
-  targets.tolerance = options.tolerance;
   SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads);
   const bool same_topology = euler_number(improved) == chi;
   to_mesh(std::move(improved), result);
@@ -213,22 +215,41 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
 
   const GaussianField field(atoms, options.decay, options.isovalue);
   watch.finished("field");
-  SurfaceMesh traced = certified_trace(field, atoms, options, threads, watch, report);
+  const auto trace = [&] { return certified_trace(field, atoms, options, threads, watch, report); };
+  const auto measure = [&] {
+    const TwoSidedDistance d = two_sided_distance(result.mesh, atoms, options.decay, report.isovalue_used);
+    report.surface_distance = std::max(d.mesh_to_surface, d.surface_to_mesh);
+  };
   bool is_good = true;
   if (!options.improve) {
-    to_mesh(std::move(traced), result);
+    to_mesh(trace(), result);
     report.check = check_mesh(result.mesh);
     is_good = report.check.fit_for_solver();
+    if (options.measure_distance) measure();
   } else {
-    const GaussianField used(atoms, options.decay, report.isovalue_used);
-    is_good = improve(std::move(traced), used, options, Guarding::kCloseSheets, threads, watch, result);
-    if (!is_good) {
-      traced = certified_trace(field, atoms, options, threads, watch, report);
-      is_good = improve(std::move(traced), used, options, Guarding::kEverywhere, threads, watch, result);
+    // Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another
+    // attempt.
+    constexpr int kMostAttempts = 4;
+    SizeTargets targets;
+    targets.spacing = options.spacing;
+    targets.tolerance = options.tolerance;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt, targets.tolerance *= 0.6) {
+      SurfaceMesh traced = trace();
+      const GaussianField used(atoms, options.decay, report.isovalue_used);
+      is_good = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result) ||
+                improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result);
+      if (!is_good) break;
+      if (options.measure_distance || options.tolerance > 0.0) measure();
+      watch.finished("verify");
+      if (options.tolerance == 0.0 || *report.surface_distance <= options.tolerance) break;
     }
   }
   if (!is_good) {
     throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
+  }
+  if (options.tolerance > 0.0 && *report.surface_distance > options.tolerance) {
+    throw CannotMeshError("tolerance: asked for " + number_text(options.tolerance) + " A, reached " +
+                          number_text(*report.surface_distance, 3) + " A; choose a smaller spacing too");
   }
   report.vertex_distance_max =
       vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;

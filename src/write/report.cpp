@@ -100,6 +100,7 @@ std::string report_json(const MeshReport& report) {
                {"quality", quality_json(check)},
                {"vertex_distance_max_A", report.vertex_distance_max},
                {"stages", stages}};
+  if (report.surface_distance) json["surface_distance_A"] = *report.surface_distance;
   return json.dump(2) + "\n";
 }
 
@@ -117,10 +118,13 @@ std::string report_summary(const MeshReport& report) {
       counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") + ", " +
       counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) + " A^2, volume " +
       number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " + number_text(memory_MB, 3) + " MB\n";
-  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
-          " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
-          number_text(100.0 * check.under_30_deg, 2) + " % under 30; mean edge " + number_text(check.mean_edge, 3) +
-          " A, shortest over longest " + number_text(check.mean_edge_ratio, 3) + "\n";
+  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " +
+          number_text(check.max_angle_deg, 4) + " degrees, smallest one " +
+          number_text(check.mean_min_angle_deg, 3) + " on average, " + number_text(100.0 * check.under_30_deg, 2) +
+          " % under 30; mean edge " + number_text(check.mean_edge, 3) + " A, shortest over longest " +
+          number_text(check.mean_edge_ratio, 3);
+  if (report.surface_distance) text += "; within " + number_text(*report.surface_distance, 3) + " A of the surface";
+  text += "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
                                counted(cavities, "cavity", "cavities") + ", " +
                                counted(handles, "handle", "handles");

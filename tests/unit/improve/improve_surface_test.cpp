@@ -5,6 +5,7 @@
 #include <map>
 
 #include "catch2.h"
+#include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
 #include "improve/vectors.h"
 #include "support/meshing.h"
@@ -85,19 +86,20 @@ TEST_CASE("the sphere of one atom, up to triangles as large as itself") {
   }
 }
 
-TEST_CASE("a smaller tolerance makes smaller triangles, which are nearer to the surface") {
+TEST_CASE("a tolerance makes smaller triangles, until they are as near to the surface as that") {
   const std::vector<Atom> atoms = molecule("2y29_wat");
   MeshOptions o = improved(0.6, 1.7, 0.8);
+  o.measure_distance = true;
   const MeshResult coarse = mesh_surface(atoms, o);
   o.tolerance = 0.02;
   const MeshResult fine = mesh_surface(atoms, o);
-  const auto distance = [&](const MeshResult& result) {
-    return distance_to_surface(result.mesh, atoms, 0.6, 1.7).max_centroid_distance;
-  };
   CHECK(fine.mesh.triangles.size() > coarse.mesh.triangles.size());
-  CHECK(distance(coarse) > 0.03);
-  CHECK(distance(fine) < 0.02);
+  CHECK(coarse.report.surface_distance.value() > 0.03);
+  CHECK(fine.report.surface_distance.value() <= 0.02);
+  CHECK(distance_to_surface(fine.mesh, atoms, 0.6, 1.7).max_centroid_distance <= 0.02);
   CHECK(fine.report.check.fit_for_solver());
+  o.improve = false;
+  CHECK_THROWS_AS(mesh_surface(atoms, o), OptionError);
 }
 
 TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only") {
