@@ -201,7 +201,9 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
                       "0: no limit)")
           ->type_name("T")
           ->group(triangles);
-  program.add_flag("!--raw", command.options.improve, "leave the triangles as traced, slivers and all")
+  program
+      .add_flag_callback("--raw", [&command] { command.options.improve = false; },
+                         "leave the triangles as traced, slivers and all")
       ->excludes(tolerance)
       ->group(triangles);
 
