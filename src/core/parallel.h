@@ -13,29 +13,9 @@ namespace gaussmesh {
 /// How many threads a user's wish means: 0 is one for each processor.
 inline int thread_count(int wish) { return wish > 0 ? wish : omp_get_num_procs(); }
 
-/// Calls work(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
-/// When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.
-template <typename Work>
-void parallel_for(std::size_t count, int threads, const Work& work) {
-  std::exception_ptr error;
-  std::size_t error_at = count;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < count; ++i) {
-    try {
-      work(i);
-    } catch (...) {
-#pragma omp critical(gaussmesh_parallel_for)
-      if (i < error_at) {
-        error_at = i;
-        error = std::current_exception();
-      }
-    }
-  }
-  if (error) std::rethrow_exception(error);
-}
-
-/// The same with a worker for each thread, which keeps buffers from slot to slot: make_worker() gives something that is
-/// called with i. Threads take `chunk` slots at a time.
+/// Calls worker(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
+/// Each thread has a worker of its own from make_worker(), which keeps buffers from slot to slot, and takes `chunk` slots
+/// at a time. When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.
 template <typename MakeWorker>
 void parallel_for_workers(std::size_t count, int threads, int chunk, const MakeWorker& make_worker) {
   std::exception_ptr error;
@@ -58,6 +38,12 @@ void parallel_for_workers(std::size_t count, int threads, int chunk, const MakeW
     }
   }
   if (error) std::rethrow_exception(error);
+}
+
+/// The same with one function for all threads, which take one slot at a time.
+template <typename Work>
+void parallel_for(std::size_t count, int threads, const Work& work) {
+  parallel_for_workers(count, threads, 1, [&] { return [&](std::size_t i) { work(i); }; });
 }
 
 }  // namespace gaussmesh

@@ -5,6 +5,7 @@
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
+#include "field/point_value.h"
 #include "roots/edge_roots.h"
 
 namespace gaussmesh {
@@ -15,34 +16,15 @@ constexpr double kCellSize = 1.5;  // A: small beside the reach of an atom, larg
 /// Lists are asked for with points this much outside their cells (in cells) by way of a Newton step.
 constexpr double kMargin = 0.1;
 
-struct Sums {
-  double total = 0.0, x = 0.0, y = 0.0, z = 0.0;
-};
-
-GAUSSMESH_SIMD_CLONES
-Sums first_moments(const double* atoms, std::size_t n, double d, double px, double py, double pz) {
-  const double *x = atoms, *y = atoms + n, *z = atoms + 2 * n, *w = atoms + 3 * n;
-  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
-#pragma omp simd reduction(+ : total, sx, sy, sz)
-  for (std::size_t i = 0; i < n; ++i) {
-    const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
-    const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz));
-    total += a;
-    sx += a * ux;
-    sy += a * uy;
-    sz += a * uz;
-  }
-  return {total, sx, sy, sz};
-}
-
+/// Sums of the weights, and of the weights times offsets of the point from the atoms and their products.
 struct SecondSums {
-  Sums first;
+  double total = 0.0, x = 0.0, y = 0.0, z = 0.0;
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 };
 
 GAUSSMESH_SIMD_CLONES
-SecondSums second_moments(const double* atoms, std::size_t n, double d, double px, double py, double pz) {
-  const double *x = atoms, *y = atoms + n, *z = atoms + 2 * n, *w = atoms + 3 * n;
+SecondSums second_moments(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+                          double px, double py, double pz) {
   double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 #pragma omp simd reduction(+ : total, sx, sy, sz, xx, yy, zz, xy, xz, yz)
@@ -61,10 +43,8 @@ SecondSums second_moments(const double* atoms, std::size_t n, double d, double p
     xz += ax * uz;
     yz += ay * uz;
   }
-  return {{total, sx, sy, sz}, xx, yy, zz, xy, xz, yz};
+  return {total, sx, sy, sz, xx, yy, zz, xy, xz, yz};
 }
-
-double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - p, p - hi)); }
 
 }  // namespace
 
@@ -83,51 +63,34 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
   lists_.resize(count);
 }
 
-const BlockField::AtomList& BlockField::list_at(const Vec3& point) {
+const NearAtoms& BlockField::atoms_at(const Vec3& point) {
   std::array<int, 3> index;
   for (int k = 0; k < 3; ++k) {
     const double i = std::floor((point[k] - box_.lo[k]) / cell_size_);
     index[k] = i <= 0.0 ? 0 : i >= cells_[k] - 1 ? cells_[k] - 1 : static_cast<int>(i);
   }
   AtomList& list = lists_[static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
-  if (list.is_made) return list;
+  if (list.is_made) return list.atoms;
   list.is_made = true;
-  Vec3 lo, hi;
+  Box cell;
   for (int k = 0; k < 3; ++k) {
-    lo[k] = box_.lo[k] + (index[k] - kMargin) * cell_size_;
-    hi[k] = box_.lo[k] + (index[k] + 1 + kMargin) * cell_size_;
+    cell.lo[k] = box_.lo[k] + (index[k] - kMargin) * cell_size_;
+    cell.hi[k] = box_.lo[k] + (index[k] + 1 + kMargin) * cell_size_;
   }
-  std::vector<std::uint32_t> chosen;
-  chosen.reserve(256);
-  for (std::uint32_t i = 0; i < atoms_.size(); ++i) {
-    const double dx = gap(atoms_.x[i], lo[0], hi[0]), dy = gap(atoms_.y[i], lo[1], hi[1]),
-                 dz = gap(atoms_.z[i], lo[2], hi[2]);
-    if (atoms_.w[i] - decay_ * (dx * dx + dy * dy + dz * dz) >= -kCut) chosen.push_back(i);
-  }
-  list.first = static_cast<std::uint32_t>(pool_.size());
-  list.count = static_cast<std::uint32_t>(chosen.size());
-  for (const std::vector<double>* values : {&atoms_.x, &atoms_.y, &atoms_.z, &atoms_.w}) {
-    for (const std::uint32_t i : chosen) pool_.push_back((*values)[i]);
-  }
-  return list;
-}
-
-BlockField::ValueAndGradient BlockField::evaluate(const Vec3& p) {
-  const AtomList& list = list_at(p);
-  const Sums s = first_moments(pool_.data() + list.first, list.count, decay_, p[0], p[1], p[2]);
-  const double factor = -2.0 * decay_ / s.total;
-  return {std::log(s.total), {factor * s.x, factor * s.y, factor * s.z}};
+  list.atoms.restrict_from(atoms_, cell, decay_, kCut);
+  return list.atoms;
 }
 
 FieldJet BlockField::jet(const Vec3& p) {
-  const AtomList& list = list_at(p);
-  const SecondSums s = second_moments(pool_.data() + list.first, list.count, decay_, p[0], p[1], p[2]);
+  const NearAtoms& near = atoms_at(p);
+  const SecondSums s = second_moments(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(),
+                                      decay_, p[0], p[1], p[2]);
   // grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by
   // phi_i.
-  const double f = 1.0 / s.first.total, d = decay_;
-  const Vec3 m{f * s.first.x, f * s.first.y, f * s.first.z};
+  const double f = 1.0 / s.total, d = decay_;
+  const Vec3 m{f * s.x, f * s.y, f * s.z};
   FieldJet jet;
-  jet.value = std::log(s.first.total);
+  jet.value = std::log(s.total);
   jet.gradient = -2.0 * d * m;
   const double q = 4.0 * d * d;
   jet.hessian = {q * (f * s.xx - m[0] * m[0]) - 2.0 * d, q * (f * s.yy - m[1] * m[1]) - 2.0 * d,
@@ -141,7 +104,7 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest) {
   constexpr double kGoodStep = 1e-5;
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
-    const ValueAndGradient v = evaluate(p);
+    const PointValue v = evaluate(atoms_at(p), decay_, p);
     const double slope = length(v.gradient);
     if (!(slope > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.5 * farthest, 0.5 * farthest);

@@ -46,17 +46,11 @@ class BlockField {
   static constexpr double kCut = 28.0;   ///< log-weight, relative to c, below which an atom is left out
 
   struct AtomList {
-    std::uint32_t first = 0;  ///< where its x, y, z and w follow each other in the pool
-    std::uint32_t count = 0;
+    NearAtoms atoms;
     bool is_made = false;
   };
-  struct ValueAndGradient {
-    double value;
-    Vec3 gradient;
-  };
 
-  const AtomList& list_at(const Vec3& point);
-  ValueAndGradient evaluate(const Vec3& point);
+  const NearAtoms& atoms_at(const Vec3& point);
 
   double decay_;
   Box box_;
@@ -64,7 +58,6 @@ class BlockField {
   std::array<int, 3> cells_{};
   NearAtoms atoms_;
   std::vector<AtomList> lists_;
-  std::vector<double> pool_;
 };
 
 /// Principal curvature (1/A) of the level set through the jet's point, the larger one in absolute value.

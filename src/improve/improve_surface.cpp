@@ -141,8 +141,9 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
-    if (&sweep == &kSweeps[1])
+    if (&sweep == &kSweeps[1]) {
       now.largest = targets.spacing * std::clamp(targets.spacing / mean_edge(mesh), 1.0, kLargestFactor);
+    }
   }
   return finish(std::move(mesh));
 }

@@ -1,6 +1,7 @@
 #include "improve/repair.h"
 
 #include <numbers>
+
 namespace gaussmesh {
 namespace {
 
