@@ -1,8 +1,8 @@
 #include "check_command.h"
 
 #include "check_report.h"
-#include "gaussmesh/read_mesh.h"
 #include "report_parts.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -14,7 +14,7 @@ constexpr int kCheckFailed = 5;
 constexpr double kSolverSeparation = 0.05;
 
 CheckFindings find_all(const CheckOptions& options) {
-  const TriangleMesh mesh = read_mesh(options.mesh).mesh;
+  const TriangleMesh mesh = read_mesh_argument(options.mesh).mesh;
   CheckFindings found;
   found.name = options.mesh;
   found.mesh = check_mesh(mesh);
@@ -23,11 +23,12 @@ CheckFindings find_all(const CheckOptions& options) {
   found.separation_is_required = options.min_separation.has_value();
   if (is_measurable) found.near = find_near_vertices(mesh, found.separation);
   if (!options.molecule) return found;
-  const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading, false);
+  const Surface surface = surface_of(options.surface, options.reading);
+  const std::vector<Atom> atoms = read_molecule(*options.molecule, surface.reading, false);
   found.tolerance = options.tolerance;
   if (!is_measurable) return found;
-  found.distance = distance_to_surface(mesh, atoms, options.decay, options.isovalue);
-  found.two_sided = two_sided_distance(mesh, atoms, options.decay, options.isovalue);
+  found.distance = distance_to_surface(mesh, atoms, surface.decay, surface.isovalue);
+  found.two_sided = two_sided_distance(mesh, atoms, surface.decay, surface.isovalue);
   found.charges_outside = find_charges_outside(mesh, found.mesh, atoms);
   return found;
 }
@@ -35,37 +36,40 @@ CheckFindings find_all(const CheckOptions& options) {
 }  // namespace
 
 CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
-  CLI::App* command = program.add_subcommand("check", "judge a mesh by its triangles alone, exactly");
-  const CLI::Validator positive = positive_number();
-  command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads")
+  CLI::App* command = program.add_subcommand("check", "judge whether a solver can trust a mesh");
+  command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads; -: standard input")
       ->type_name("MESH")
       ->required();
   CLI::Option* molecule = command
                               ->add_option("molecule", options.molecule,
                                            "molecule that it should be the surface of: PQR, XYZR, PDB, mmCIF")
                               ->type_name("MOL");
-  CLI::Option* decay = command->add_option("--d,--decay", options.decay, "decay d of its Gaussians (1/A^2)")
-                           ->type_name("D")
-                           ->check(positive);
-  CLI::Option* isovalue = command->add_option("--c,--isovalue", options.isovalue, "isovalue c of its surface")
-                              ->type_name("C")
-                              ->check(positive);
-  molecule->needs(decay)->needs(isovalue);
-  decay->needs(molecule);
-  isovalue->needs(molecule);
-  command->add_option("--tolerance", options.tolerance, "largest distance of a vertex from the surface (A)")
+  const std::string surface = "Surface of the molecule";
+  for (CLI::Option* option : add_surface_options(*command, options.surface))
+    option->needs(molecule)->group(surface);
+  for (CLI::Option* option : add_molecule_options(*command, options.reading))
+    option->needs(molecule)->group(option->check_lname("probe") ? surface : "Input");
+  const std::string judgement = "Judgement";
+  command
+      ->add_option("--tolerance", options.tolerance,
+                   "largest distance of a vertex from the surface (A, > 0; default: 1e-6)")
       ->type_name("T")
-      ->check(positive)
-      ->capture_default_str()
-      ->needs(molecule);
+      ->check(positive_number())
+      ->needs(molecule)
+      ->group(judgement);
   command
       ->add_option("--min-separation", options.min_separation,
-                   "least distance of any two vertices (A); else pairs nearer than 0.05 are only told")
+                   "least distance of any two vertices (A, > 0; default: none, pairs nearer than 0.05 are told)")
       ->type_name("S")
-      ->check(positive);
+      ->check(positive_number())
+      ->group(judgement);
   add_json_option(*command, options.json);
-  for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   command->footer(
+      "Examples:\n"
+      "  gaussmesh check out.off                             is it closed, embedded, right side out?\n"
+      "  gaussmesh check out.off in.pqr --d 0.6 --c 1.7      and on that surface, with all charges inside?\n"
+      "  gaussmesh check out.vert in.pqr --preset sas\n"
+      "  gaussmesh check out.off --min-separation 0.05       fails where vertices are nearer\n\n"
       "Exit codes: 0 the mesh is closed, oriented, embedded and right side out, its vertices are as far apart as\n"
       "asked for, and if there is a molecule they are on its surface and its charges inside; 5 it is not; 2 wrong\n"
       "use; 3 bad input");

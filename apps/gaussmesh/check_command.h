@@ -6,6 +6,7 @@
 #include <string>
 
 #include "molecule_options.h"
+#include "surface_options.h"
 
 namespace gaussmesh::app {
 
@@ -14,8 +15,7 @@ struct CheckOptions {
   std::string mesh;                      ///< in any format that is read
   std::optional<std::string> molecule;   ///< measure the distance to its surface, too
   MoleculeOptions reading;               ///< of the molecule
-  double decay = 0.0;                    ///< d of the molecule's Gaussians, 1/A^2
-  double isovalue = 0.0;                 ///< c of its surface
+  SurfaceOptions surface;                ///< of the molecule
   double tolerance = 1e-6;               ///< largest distance (A) that a vertex may have from it
   std::optional<double> min_separation;  ///< least distance (A) of any two vertices
   std::optional<std::string> json;       ///< write JSON here; "-": to the terminal, in place of the report

@@ -75,17 +75,18 @@ std::string near_text(const CheckFindings& found) {
   constexpr std::size_t kMostExamples = 3;
   if (!found.near) return "";
   const NearVertices& near = *found.near;
-  std::string text =
-      line("Vertices nearer to each other than %.4g A: %zu pairs%s, %zu of them joined by an edge\n",
-           found.separation, near.pairs, near.pairs == kMostNearPairs ? " or more" : "", near.short_edges);
+  std::string text = line(
+      "Vertices nearer to each other than %.4g A: %zu pairs%s, %zu of them joined by an edge, %zu crowded\n",
+      found.separation, near.pairs, near.pairs == kMostNearPairs ? " or more" : "", near.short_edges, near.crowded);
   std::string pairs;
   for (std::size_t i = 0; i < std::min(kMostExamples, near.examples.size()); ++i)
     pairs += line("%s%u and %u", i == 0 ? "" : ", ", near.examples[i][0], near.examples[i][1]);
   if (!pairs.empty()) text += "  counted from 0: " + pairs + "\n";
-  if (near.pairs != 0 && !found.separation_is_required)
-    text +=
-        "  WARNING: boundary-element solvers may not converge with elements so small; --min-separation asks for "
-        "none\n";
+  if (near.crowded != 0 && !found.separation_is_required)
+    text += line(
+        "  WARNING: %zu pairs are nearer than a quarter of the edges there; boundary-element solvers may not "
+        "converge\n",
+        near.crowded);
   return text;
 }
 
@@ -132,6 +133,7 @@ Json near_json(const CheckFindings& found) {
   return {{"separation_A", found.separation},
           {"pairs", found.near->pairs},
           {"short_edges", found.near->short_edges},
+          {"crowded", found.near->crowded},
           {"examples", found.near->examples}};
 }
 

@@ -1,7 +1,7 @@
 #include "compare_command.h"
 
-#include "gaussmesh/read_mesh.h"
 #include "report_parts.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -38,12 +38,14 @@ std::string comparison_json(const CompareCommand& command, const MeshComparison&
 
 CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
   CLI::App* app = program.add_subcommand("compare", "measure how far two meshes are from each other");
-  app->add_option("A", command.first, "mesh, in any format that convert reads")->type_name("MESH")->required();
+  app->add_option("A", command.first, "mesh, in any format that convert reads; -: standard input")
+      ->type_name("MESH")
+      ->required();
   app->add_option("B", command.second, "the other mesh")->type_name("MESH")->required();
-  app->add_option("--density", command.options.samples_per_A2, "samples per A^2 of the surfaces")
+  app->add_option("--density", command.options.samples_per_A2,
+                  "samples on each area of the surfaces (1/A^2, > 0; default: 25)")
       ->type_name("N")
-      ->check(positive_number())
-      ->capture_default_str();
+      ->check(positive_number());
   add_json_option(*app, command.json);
   app->footer(
       "For each direction: the largest distance of a sample, what no point of the surface exceeds, and the mean "
@@ -54,8 +56,8 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
 }
 
 int run_compare(const CompareCommand& command) {
-  const TriangleMesh first = read_mesh(command.first).mesh;
-  const TriangleMesh second = read_mesh(command.second).mesh;
+  const TriangleMesh first = read_mesh_argument(command.first).mesh;
+  const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);
   put_report(comparison_text(command, found), comparison_json(command, found), command.json);
   return 0;

@@ -1,16 +1,17 @@
 #include "convert_command.h"
 
 #include "gaussmesh/error.h"
-#include "gaussmesh/read_mesh.h"
 #include "output_options.h"
+#include "report_parts.h"
 
 namespace gaussmesh::app {
 
 CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   CLI::App* command = program.add_subcommand("convert", "write a mesh in other formats");
   command
-      ->add_option("input", options.input,
-                   "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS; also gzipped")
+      ->add_option(
+          "input", options.input,
+          "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
       ->type_name("MESH")
       ->required();
   command->add_option("output", options.outputs, "meshes to write; -: standard output")
@@ -18,17 +19,23 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
       ->required();
   CLI::Option* molecule = command
                               ->add_option("--molecule", options.molecule,
-                                           "molecule of the mesh, for the nearest atoms that MSMS holds")
+                                           "molecule of the mesh, for the nearest atoms (default: none)")
                               ->type_name("MOL");
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
+  command->footer(
+      "VTP is written and not read. Without a molecule, nearest atoms are those that the input has, if any.\n\n"
+      "Examples:\n"
+      "  gaussmesh convert out.vert out.ply out.vtp\n"
+      "  gaussmesh convert out.off out.vert --molecule in.pqr --no-header\n"
+      "  gaussmesh convert out.ply - --format off | less");
   return command;
 }
 
 int run_convert(const ConvertOptions& options) {
   const WriteOptions writing = writing_options(options.writing, options.no_header);
   require_writable_outputs(options.outputs, "", writing);
-  MeshFile file = read_mesh(options.input);
+  MeshFile file = read_mesh_argument(options.input);
   const MeshCheck check = check_mesh(file.mesh);
   if (check.bad_indices > 0) {
     throw InputError(options.input + ": expected vertices for all triangles, got none for " +

@@ -8,11 +8,13 @@
 #include "compare_command.h"
 #include "convert_command.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/nearest_name.h"
 #include "gaussmesh/version.h"
+#include "help_format.h"
 #include "manual.h"
 #include "measure_command.h"
 #include "mesh_command.h"
-#include "names.h"
+#include "validators.h"
 
 namespace {
 
@@ -36,11 +38,22 @@ int fail(const std::exception& error, ExitCode code) {
   return code;
 }
 
-/// Leaves no temporary file behind, and ends the program as the signal would have.
-void clean_up_and_die(int signal) {
-  gaussmesh::remove_unfinished_files();
+/// The signal that came while files were put in their places; 0: none.
+volatile std::sig_atomic_t late_signal = 0;
+
+/// Ends the program as the signal would have.
+void die_of(int signal) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);
+}
+
+/// Leaves no temporary file behind, and no set of files that are half new and half old.
+void clean_up_and_die(int signal) {
+  if (gaussmesh::remove_unfinished_files()) {
+    die_of(signal);
+  } else {
+    late_signal = signal;
+  }
 }
 
 void handle_signals() {
@@ -97,6 +110,7 @@ int run(int argc, char** argv) {
       "  { x : sum_i exp(-d (|x - x_i|^2 - r_i^2)) = c }",
       "gaussmesh");
   program.footer(kFooter);
+  program.formatter_fn([](const CLI::App* app, const std::string&, CLI::AppFormatMode) { return help_text(*app); });
   std::string manual;
   program.add_option("--print-manual", manual, "man, bash or zsh")
       ->check(one_of({"man", "bash", "zsh"}))
@@ -107,7 +121,9 @@ int run(int argc, char** argv) {
   program
       .set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion, "print the version and exit")
       ->group("Running");
-  program.set_config("--config", "", "read options from a TOML file; those on the command line come first")
+  program
+      .set_config("--config", "",
+                  "read options from a TOML file; those on the command line come first (default: none)")
       ->type_name("FILE")
       ->group("Running");
   program.allow_config_extras(CLI::config_extras_mode::error);
@@ -135,12 +151,12 @@ int run(int argc, char** argv) {
   return run_mesh(mesh);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  handle_signals();
+/// run(), with its errors told.
+int run_and_tell(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (!std::cout.flush()) throw gaussmesh::InputError("standard output: cannot be written to");
+    return code;
   } catch (const gaussmesh::OptionError& error) {
     return fail(error, kWrongUse);
   } catch (const gaussmesh::InputError& error) {
@@ -150,4 +166,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(error, kInternal);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  handle_signals();
+  const int code = run_and_tell(argc, argv);
+  if (late_signal != 0) die_of(late_signal);
+  return code;
 }

@@ -5,7 +5,6 @@
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/measure_mesh.h"
-#include "gaussmesh/read_mesh.h"
 #include "gaussmesh/write_mesh.h"
 #include "report_parts.h"
 
@@ -66,11 +65,14 @@ std::string areas_text(const std::vector<double>& areas) {
 
 CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
   CLI::App* app = program.add_subcommand("measure", "area and volume of a mesh, in all and at each atom");
-  app->add_option("mesh", command.mesh, "mesh, in any format that convert reads")->type_name("MESH")->required();
+  app->add_option("mesh", command.mesh, "mesh, in any format that convert reads; -: standard input")
+      ->type_name("MESH")
+      ->required();
   CLI::Option* molecule =
       app->add_option("molecule", command.molecule, "its molecule: PQR, XYZR, PDB, mmCIF")->type_name("MOL");
-  app->add_option("--atom-areas", command.atom_areas,
-                  "write a line for each atom: its number, counted from 1, and the area nearest to it (A^2)")
+  app->add_option(
+         "--atom-areas", command.atom_areas,
+         "write a line for each atom: its number, counted from 1, and the area nearest to it, A^2 (default: none)")
       ->type_name("FILE")
       ->needs(molecule);
   for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
@@ -86,7 +88,7 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
 }
 
 int run_measure(const MeasureCommand& command) {
-  const TriangleMesh mesh = read_mesh(command.mesh).mesh;
+  const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)
     throw InputError(command.mesh + ": expected a mesh to measure, got " + std::to_string(found.mesh.bad_indices) +

@@ -1,49 +1,17 @@
 #include "mesh_command.h"
 
-#include <array>
 #include <filesystem>
 #include <iostream>
 #include <limits>
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/select_components.h"
-#include "names.h"
 #include "output_options.h"
 #include "progress.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
-
-/// Parameters by the surface that they match: [LCL15] for the first three.
-struct Preset {
-  const char* name;
-  double decay;
-  double isovalue;
-  double probe;
-};
-
-constexpr std::array<Preset, 5> kPresets = {{{"ses-volume", 0.6, 1.7, 0.0},
-                                             {"ses-area", 0.4, 1.8, 0.0},
-                                             {"ses-hausdorff", 0.4, 1.2, 0.0},
-                                             {"vdw", 2.0, 1.0, 0.0},
-                                             {"sas", 2.0, 1.0, 1.4}}};
-
-std::vector<std::string> preset_names() {
-  std::vector<std::string> names;
-  for (const Preset& preset : kPresets) names.push_back(preset.name);
-  return names;
-}
-
-/// The command with what its preset means filled in.
-MeshCommand with_preset(MeshCommand command) {
-  for (const Preset& preset : kPresets) {
-    if (command.preset != preset.name) continue;
-    command.options.decay = preset.decay;
-    command.options.isovalue = preset.isovalue;
-    if (!command.reading.probe) command.reading.probe = preset.probe;
-  }
-  return command;
-}
 
 bool is_standard_output_taken(const MeshCommand& command) {
   return command.report == "-" ||
@@ -136,29 +104,13 @@ void print_details(const MeshReport& report, std::ostream& out) {
 
 }  // namespace
 
+std::vector<std::string> cavity_choices() { return {"keep", "drop", "separate"}; }
+
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program.add_option("molecule", command.molecule, kMoleculeHelp)->type_name("MOL");
 
   const std::string surface = "Surface";
-  CLI::Option* preset = program
-                            .add_option("--preset", command.preset,
-                                        "decay, isovalue and probe by name: " + join_names(preset_names(), ", ") +
-                                            " (default: ses-volume)")
-                            ->type_name("NAME")
-                            ->check(one_of(preset_names()))
-                            ->group(surface);
-  program
-      .add_option("--d,--decay", command.options.decay,
-                  "decay d of the Gaussians (1/A^2, 0.001 to 1000; default 0.6)")
-      ->type_name("D")
-      ->excludes(preset)
-      ->group(surface);
-  program
-      .add_option("--c,--isovalue", command.options.isovalue,
-                  "isovalue c of the surface (1e-9 to 1e9; default 1.7)")
-      ->type_name("C")
-      ->excludes(preset)
-      ->group(surface);
+  for (CLI::Option* option : add_surface_options(program, command.surface)) option->group(surface);
   for (CLI::Option* option : add_molecule_options(program, command.reading))
     option->group(option->check_lname("probe") ? surface : "Input");
   program
@@ -166,83 +118,91 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
                   "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
                   "first (default: keep)")
       ->type_name("NAME")
-      ->check(one_of({"keep", "drop", "separate"}))
+      ->check(one_of(cavity_choices()))
       ->group(surface);
   program
       .add_option("--min-cavity-volume", command.min_cavity_volume,
-                  "fill cavities of less than this (A^3, >= 0; one water is 11.4; default 0)")
+                  "fill cavities of less than this (A^3, >= 0; one water is 11.4; default: 0)")
       ->type_name("V")
       ->group(surface);
   program
       .add_flag("--allow-uncertified", command.options.allow_uncertified,
-                "where c is too near a critical value for a proof, mesh a level beside it")
+                "where c is too near a critical value for a proof, mesh a level beside it (default: off)")
       ->group(surface);
 
   const std::string triangles = "Triangles";
   CLI::Option* spacing =
       program
           .add_option("--spacing", command.options.spacing,
-                      "wanted mean edge of the triangles (A, 0.01 to 200, with --raw to 1000; default 0.5)")
+                      "wanted mean edge of the triangles (A, 0.01 to 200, with --raw to 1000; default: 0.5)")
           ->type_name("H")
+          ->check(number_between(0.01, 1000.0))
           ->group(triangles);
   program
       .add_option_function<double>(
-          "--density",
-          [&command](double density) { command.options.spacing = spacing_for_density(density); },
-          "the same by vertices per A^2 (1e-6 to 1e4; --spacing 0.5 is 4.6)")
+          "--density", [&command](double density) { command.options.spacing = spacing_for_density(density); },
+          "the same by vertices per area (1/A^2, 1e-6 to 1e4; default: none, --spacing 0.5 is 4.6)")
       ->type_name("V")
-      ->check(CLI::Range(1e-6, 1e4))
+      ->check(number_between(1e-6, 1e4))
       ->excludes(spacing)
       ->group(triangles);
   CLI::Option* tolerance =
       program
           .add_option("--tolerance", command.options.tolerance,
-                      "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; default "
-                      "0: no limit)")
+                      "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; "
+                      "default: 0, no limit)")
           ->type_name("T")
+          ->check(number_between(0.0, 1000.0))
           ->group(triangles);
   program
-      .add_flag_callback("--raw", [&command] { command.options.improve = false; },
-                         "leave the triangles as traced, slivers and all")
+      .add_flag_callback(
+          "--raw", [&command] { command.options.improve = false; },
+          "leave the triangles as traced, slivers and all; not with --tolerance (default: off)")
       ->excludes(tolerance)
       ->group(triangles);
 
   const std::string output = "Output";
   program
-      .add_option("-o,--output", command.outputs, "mesh to write; may be given several times; -: standard output")
+      .add_option("-o,--output", command.outputs,
+                  "mesh to write; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
       ->group(output);
   for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(output);
   program
       .add_option("--report", command.report,
-                  "write everything that is known of the mesh, JSON; -: standard output")
+                  "write everything that is known of the mesh, JSON; -: standard output (default: none)")
       ->type_name("FILE")
       ->group(output);
 
   const std::string running = "Running";
   program
-      .add_option("--threads", command.options.threads,
-                  "threads (0 to 4096; 0, the default: one for each processor)")
+      .add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
       ->type_name("N")
+      ->check(number_between(0.0, 4096.0))
       ->group(running);
-  CLI::Option* quiet = program.add_flag("--quiet", command.quiet, "say nothing but errors")->group(running);
-  program.add_flag("--verbose", command.verbose, "say also how each stage went")->excludes(quiet)->group(running);
+  CLI::Option* quiet =
+      program.add_flag("--quiet", command.quiet, "say nothing but errors (default: off)")->group(running);
+  program.add_flag("--verbose", command.verbose, "say also how each stage went (default: off)")
+      ->excludes(quiet)
+      ->group(running);
 }
 
-int run_mesh(const MeshCommand& given) {
-  const MeshCommand command = with_preset(given);
+int run_mesh(const MeshCommand& command) {
   require_sense(command);
   require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
-  const std::vector<Atom> atoms = read_molecule(command.molecule, command.reading, command.quiet);
+  const Surface surface = surface_of(command.surface, command.reading);
+  const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);
   MeshOptions options = command.options;
+  options.decay = surface.decay;
+  options.isovalue = surface.isovalue;
   options.measure_distance = !command.report.empty();
   MeshResult result = [&] {
     ProgressBar bar(!command.quiet);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
     return mesh_surface(atoms, options);
   }();
-  result.report.probe_radius = command.reading.probe.value_or(0.0);
+  result.report.probe_radius = surface.reading.probe.value_or(0.0);
   VertexData data = find_vertex_data(command, atoms, result);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});

@@ -8,12 +8,13 @@
 #include "gaussmesh/mesh_surface.h"
 #include "gaussmesh/write_mesh.h"
 #include "molecule_options.h"
+#include "surface_options.h"
 
 namespace gaussmesh::app {
 
 struct MeshCommand {
   std::string molecule;  ///< "-": standard input
-  std::string preset;    ///< names decay, isovalue and probe; empty: they stand in the options
+  SurfaceOptions surface;
   MoleculeOptions reading;
   std::string cavities = "keep";     ///< or drop, separate
   double min_cavity_volume = 0.0;    ///< A^3; smaller cavities are left out
@@ -23,8 +24,11 @@ struct MeshCommand {
   bool quiet = false;
   bool verbose = false;
   WriteOptions writing;
-  MeshOptions options;
+  MeshOptions options;  ///< but decay and isovalue, which are in `surface`
 };
+
+/// What --cavities takes.
+std::vector<std::string> cavity_choices();
 
 /// Adds the options of the main job to the program itself; `command` must outlive it.
 void add_mesh_options(CLI::App& program, MeshCommand& command);

@@ -2,8 +2,7 @@
 
 #include <iostream>
 
-#include "gaussmesh/error.h"
-#include "names.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 
@@ -21,14 +20,12 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
           ->check(one_of(atom_formats())),
       command
           .add_option("--probe", options.probe,
-                      "added to every radius, say for a Stern layer (A, 0 to 1000; default 0)")
-          ->type_name("R")};
+                      "added to every radius, say for a Stern layer (A, 0 to 1000; default: 0)")
+          ->type_name("R")
+          ->check(number_between(0.0, 1000.0))};
 }
 
 std::vector<Atom> read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet) {
-  if (options.probe && !(*options.probe >= 0.0 && *options.probe <= 1000.0)) {
-    throw OptionError("probe: expected a number from 0 to 1000 (A), got '" + std::to_string(*options.probe) + "'");
-  }
   AtomFile input =
       path == "-" ? read_atoms(std::cin, "standard input", options.reading) : read_atoms(path, options.reading);
   if (!quiet)

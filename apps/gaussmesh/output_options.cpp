@@ -10,10 +10,11 @@ namespace gaussmesh::app {
 std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
   std::string names;
   for (const MeshFormat& format : mesh_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
-  return {command.add_option("--format", writing.format, "format of all meshes (" + names + "; else by extension)")
-              ->type_name("NAME"),
-          command.add_flag("--no-header", no_header,
-                           "MSMS files without their three lines of header, for PyGBe and pbj")};
+  return {
+      command.add_option("--format", writing.format, "format of all meshes: " + names + " (default: by extension)")
+          ->type_name("NAME"),
+      command.add_flag("--no-header", no_header,
+                       "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
 }
 
 WriteOptions writing_options(WriteOptions writing, bool no_header) {

@@ -1,8 +1,6 @@
 #include "report_parts.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <iostream>
@@ -15,14 +13,6 @@ namespace {
 const char* kind_of(const MeshComponent& component) {
   if (!component.closed) return "not closed";
   return component.depth % 2 == 0 ? "outside" : "cavity";
-}
-
-std::string refuse_unless_positive(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  if (is_number && std::isfinite(value) && value > 0.0) return {};
-  return "expected a number > 0, got '" + text + "'";
 }
 
 }  // namespace
@@ -65,6 +55,10 @@ Json components_json(const MeshCheck& mesh) {
   return list;
 }
 
+MeshFile read_mesh_argument(const std::string& path) {
+  return path == "-" ? read_mesh(std::cin, "standard input") : read_mesh(path);
+}
+
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file) {
@@ -74,10 +68,10 @@ void put_report(const std::string& text, const std::string& json, const std::opt
 }
 
 void add_json_option(CLI::App& command, std::optional<std::string>& file) {
-  command.add_option("--json", file, "write what is found as JSON; -: to the terminal, and nothing else")
+  command
+      .add_option("--json", file,
+                  "write what is found as JSON; -: to the terminal, and nothing else (default: none)")
       ->type_name("FILE");
 }
-
-CLI::Validator positive_number() { return {refuse_unless_positive, "", "positive"}; }
 
 }  // namespace gaussmesh::app

@@ -1,4 +1,4 @@
-// What the reports of several commands have in common.
+// What the commands that judge, measure and convert meshes have in common.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 
 #include "gaussmesh/atom.h"
 #include "gaussmesh/check_mesh.h"
+#include "gaussmesh/read_mesh.h"
 
 namespace gaussmesh::app {
 
@@ -20,6 +21,9 @@ using Json = nlohmann::ordered_json;
 std::string components_text(const MeshCheck& mesh);
 Json components_json(const MeshCheck& mesh);
 
+/// Reads the mesh; `-` is standard input. @throws InputError
+MeshFile read_mesh_argument(const std::string& path);
+
 /// JSON as it is written, with a newline at the end; names that are not UTF-8 are made so.
 std::string json_text(const Json& json);
 
@@ -28,8 +32,5 @@ void put_report(const std::string& text, const std::string& json, const std::opt
 
 /// The option that names the file.
 void add_json_option(CLI::App& command, std::optional<std::string>& file);
-
-/// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
-CLI::Validator positive_number();
 
 }  // namespace gaussmesh::app

@@ -52,15 +52,21 @@ std::vector<std::uint32_t> find_charges_outside(const TriangleMesh& mesh, const 
 struct NearVertices {
   std::size_t pairs = 0;        ///< nearer to each other than asked for, joined by an edge or not
   std::size_t short_edges = 0;  ///< edges of that length
+  std::size_t crowded = 0;      ///< pairs that are also nearer than kCrowded times the mean edge at either vertex
   std::vector<std::array<std::uint32_t, 2>>
       examples;  ///< the first few pairs in order of their numbers, lower first
 };
 
+/// Vertices nearer than this share of their edges have slivers between them, or belong to sheets that nearly touch.
+/// Where small triangles are as evenly shaped as large ones no pair is: an edge at an angle of 30 degrees is half as
+/// long as the others.
+inline constexpr double kCrowded = 0.25;
+
 /// Where counting pairs ends.
 inline constexpr std::size_t kMostNearPairs = 10'000'000;
 
-/// Counts the pairs of vertices that are less than `distance` apart, and the edges that are shorter. Elements that
-/// small make the matrix of a boundary-element method nearly singular.
+/// Counts the pairs of vertices that are less than `distance` apart, and the edges that are shorter. Pairs so near
+/// that are crowded as well make the matrix of a boundary-element method nearly singular.
 ///
 /// @param mesh      every vertex number is there, coordinates are finite
 /// @param distance  A, > 0

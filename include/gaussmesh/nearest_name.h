@@ -26,9 +26,15 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// The first of `names` that is nearest to `name` by edit_distance. @param names  at least one
+/// The first of `names` that begins with `name`, if that has three letters or more; else the first that is nearest to
+/// it by edit_distance. @param names  at least one
 template <class Names>
 std::string nearest_name(std::string_view name, const Names& names) {
+  constexpr std::size_t kLeastBeginning = 3;
+  const auto begun = std::find_if(std::begin(names), std::end(names), [&](const auto& other) {
+    return name.size() >= kLeastBeginning && std::string_view(other).starts_with(name);
+  });
+  if (begun != std::end(names)) return std::string(*begun);
   const auto distance = [&](const auto& other) { return edit_distance(name, other); };
   return std::string(*std::min_element(std::begin(names), std::end(names),
                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); }));

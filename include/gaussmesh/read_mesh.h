@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string_view>
 
 #include "gaussmesh/triangle_mesh.h"
@@ -42,6 +43,9 @@ struct MeshFile {
 ///
 /// Cost: one pass over the file in memory, about 0.1 us a triangle; STL sorts nothing, it hashes. Thread-safe.
 MeshFile read_mesh(const std::filesystem::path& path);
+
+/// Reads what is left of `input`, plain or gzipped; as parse_mesh() with that name.
+MeshFile read_mesh(std::istream& input, std::string_view name);
 
 /// Reads what is already in memory, except MSMS, which is two files; `name` decides the format as above, and stands
 /// for the file in messages.

@@ -92,6 +92,9 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, c
 void require_writable(const std::filesystem::path& path);
 
 /// Deletes what was begun and is not committed. For signal handlers: nothing but unlink() is called.
-void remove_unfinished_files() noexcept;
+///
+/// @return false, with nothing done, while OutputFiles::commit() is putting files in their places: these would be
+///         torn apart. It takes a moment; the program should end itself when it is back.
+[[nodiscard]] bool remove_unfinished_files() noexcept;
 
 }  // namespace gaussmesh

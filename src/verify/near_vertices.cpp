@@ -89,6 +89,21 @@ std::size_t count_short_edges(const TriangleMesh& mesh, double distance) {
   return static_cast<std::size_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
 }
 
+/// The mean length of the edges at each vertex; 0 where there is none.
+std::vector<double> mean_edges(const TriangleMesh& mesh) {
+  std::vector<double> sums(mesh.vertices.size(), 0.0);
+  std::vector<std::uint32_t> counts(mesh.vertices.size(), 0);
+  for (const Triangle& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t ends[2] = {triangle[k], triangle[(k + 1) % 3]};
+      const double edge = length(difference(mesh.vertices[ends[0]], mesh.vertices[ends[1]]));
+      for (const std::uint32_t v : ends) sums[v] += edge, ++counts[v];
+    }
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    if (counts[v] > 0) sums[v] /= counts[v];
+  return sums;
+}
+
 }  // namespace
 
 NearVertices find_near_vertices(const TriangleMesh& mesh, double distance) {
@@ -97,9 +112,12 @@ NearVertices find_near_vertices(const TriangleMesh& mesh, double distance) {
     throw OptionError("distance: expected a number > 0, got '" + std::to_string(distance) + "'");
   NearVertices result;
   CubeTable table(mesh.vertices, distance);
+  const std::vector<double> edges = mean_edges(mesh);
   for (std::uint32_t i = 0; i < mesh.vertices.size() && result.pairs < kMostNearPairs; ++i) {
     table.for_each_around(i, [&](std::uint32_t j) {
       if (!are_near(mesh.vertices[i], mesh.vertices[j], distance)) return true;
+      const double edge = std::max(edges[i], edges[j]);
+      if (are_near(mesh.vertices[i], mesh.vertices[j], kCrowded * edge)) ++result.crowded;
       result.examples.push_back({j, i});
       if (result.examples.size() >= 8 * kExamples) {
         std::sort(result.examples.begin(), result.examples.end());

@@ -34,6 +34,7 @@ void OutputFiles::add_text(std::string_view text, const std::filesystem::path& p
 }
 
 void OutputFiles::commit() {
+  const WholeFile::CommitsUnderWay guard;
   for (WholeFile& file : state_->files) file.commit();
   state_->files.clear();
 }

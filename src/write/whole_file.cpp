@@ -30,6 +30,7 @@ bool is_written_in_place(const fs::path& path) {
 }  // namespace
 
 std::atomic<WholeFile::Unfinished*> WholeFile::unfinished_{nullptr};
+std::atomic<int> WholeFile::commits_under_way_{0};
 
 WholeFile::WholeFile(const fs::path& path) : path_(path), target_(path) {
   if (path == "-") {
@@ -109,10 +110,12 @@ void WholeFile::commit() {
   temporary_ = nullptr;
 }
 
-void remove_unfinished_files() noexcept {
+bool remove_unfinished_files() noexcept {
+  if (WholeFile::commits_under_way_ > 0) return false;
   for (WholeFile::Unfinished* entry = WholeFile::unfinished_; entry != nullptr; entry = entry->next) {
     if (entry->is_there) ::unlink(entry->path.c_str());
   }
+  return true;
 }
 
 }  // namespace gaussmesh

@@ -27,6 +27,15 @@ class WholeFile {
 
   void commit();
 
+  /// While there is one, remove_unfinished_files() does nothing: for the commits of several files that belong together.
+  class CommitsUnderWay {
+   public:
+    CommitsUnderWay() noexcept { ++commits_under_way_; }
+    ~CommitsUnderWay() { --commits_under_way_; }
+    CommitsUnderWay(const CommitsUnderWay&) = delete;
+    CommitsUnderWay& operator=(const CommitsUnderWay&) = delete;
+  };
+
  private:
   /// A temporary file, in a list that only grows: a signal may come at any time, on any thread.
   struct Unfinished {
@@ -34,8 +43,9 @@ class WholeFile {
     std::atomic<bool> is_there{true};
     Unfinished* next = nullptr;
   };
-  friend void remove_unfinished_files() noexcept;
+  friend bool remove_unfinished_files() noexcept;
   static std::atomic<Unfinished*> unfinished_;
+  static std::atomic<int> commits_under_way_;
 
   void make_temporary();
   [[noreturn]] void fail(const char* what) const;

@@ -383,6 +383,7 @@ class Running(CliTest):
         self.assertIn("'drop'", self.expect(WRONG_USE, self.molecule("methanol"), "--cavities", "dorp").stderr)
         self.assertIn("'check'", self.expect(WRONG_USE, "chek", self.mesh).stderr)
         self.assertIn("'--json'", self.expect(WRONG_USE, "check", self.mesh, "--jason").stderr)
+        self.assertIn("'--tolerance'", self.expect(WRONG_USE, "check", self.mesh, "--tol", 1).stderr)
 
     def test_the_report_cannot_be_written(self):
         self.mesh.write_text("an older mesh\n")
@@ -405,6 +406,10 @@ class Running(CliTest):
         self.assertEqual(self.files(), ["out.off"])
         self.assertEqual(self.mesh.read_text(), "an older mesh\n")
         self.expect(BAD_INPUT, self.molecule("methanol"), "-o", "/dev/full", "--format", "off")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            for command in [["--help"], [self.molecule("methanol"), "-o", "good.off"]]:
+                self.assertEqual(subprocess.run([settings.program, *command], cwd=self.folder, stdout=full,
+                                                stderr=subprocess.DEVNULL, check=False).returncode, BAD_INPUT)
 
     def test_a_signal_while_writing(self):
         """A pipe that nobody reads holds the program in the middle of its second output; the first is still temporary."""
@@ -456,16 +461,27 @@ class Running(CliTest):
 class Manual(CliTest):
     def test_every_option_is_there(self):
         pages = {kind: self.expect(0, "--print-manual", kind).stdout for kind in ("man", "bash", "zsh")}
-        for command in [[], ["check"], ["convert"]]:
+        for command in [[], ["check"], ["convert"], ["measure"], ["compare"]]:
             for option in re.findall(r"--[a-z][a-z-]*", self.expect(0, *command, "--help").stdout):
                 self.assertIn(option.replace("-", "\\-"), pages["man"])
                 self.assertIn(option, pages["bash"])
                 self.assertIn(option, pages["zsh"])
 
+    def test_every_line_of_help_has_a_default(self):
+        for command in [[], ["check"], ["convert"], ["measure"], ["compare"]]:
+            text = self.expect(0, *command, "--help").stdout
+            self.assertLessEqual(max(map(len, text.splitlines())), 112)
+            entries = re.split(r"\n  (?=-)", text.split("\n\nCommands", 1)[0].split("\n\nExamples", 1)[0])[1:]
+            self.assertGreater(len(entries), 1)
+            for entry in entries:
+                if not re.match("-h|--version", entry):
+                    self.assertRegex(entry, r"default:|required", entry)
+
     def test_bash_completes(self):
         script = self.write("complete", self.expect(0, "--print-manual", "bash").stdout)
         for words, wanted in [("gaussmesh --pres", "--preset"), ("gaussmesh che", "check"),
-                              ("gaussmesh check --js", "--json")]:
+                              ("gaussmesh check --js", "--json"), ("gaussmesh m.pqr --preset s", "ses-volume ses-area "
+                               "ses-hausdorff sas"), ("gaussmesh m.pqr -o m", "")]:
             line = words.split()
             ask = (f"source {script}; COMP_WORDS=({words}); COMP_CWORD={len(line) - 1}; _gaussmesh; "
                    "echo ${COMPREPLY[@]}")
@@ -503,6 +519,23 @@ class Check(CliTest):
         result = self.expect(BAD_INPUT, "check", self.write("mesh.off", "OFF\n1 1 0\n0 0 zero\n3 0 0 0\n"))
         self.assertRegex(result.stderr, r"mesh\.off:3: .+")
 
+    def test_reads_standard_input(self):
+        mesh = self.off(self.FACES)
+        self.assertIn("OK", self.expect(0, "check", "-", stdin=mesh.read_text()).stdout)
+        self.expect(0, "convert", "-", "-", "--format", "off", stdin=mesh.read_text())
+
+    def test_vtp_is_not_taken_for_off(self):
+        self.expect(0, self.molecule("methanol"), "-o", "m.vtp")
+        self.assertIn("VTP", self.expect(BAD_INPUT, "check", "m.vtp").stderr)
+
+    def test_presets_and_defaults_are_those_of_meshing(self):
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        self.expect(0, "check", self.mesh, self.molecule("methanol"))
+        self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("methanol"), "--preset", "sas")
+        self.expect(0, self.molecule("methanol"), "--preset", "sas", "-o", self.mesh)
+        self.expect(0, "check", self.mesh, self.molecule("methanol"), "--preset", "sas")
+        self.expect(WRONG_USE, "check", self.mesh, "--preset", "sas")
+
     def test_off_the_surface(self):
         self.expect(0, self.molecule("methanol"), "--d", 0.6, "--c", 1.7, "-o", self.mesh)
         self.expect(0, "check", self.mesh, self.molecule("methanol"), "--d", 0.6, "--c", 1.7)
@@ -532,6 +565,15 @@ class CheckForSolvers(CliTest):
         failed = self.expect(CHECK_FAILED, "check", self.mesh, "--min-separation", 0.5)
         self.assertRegex(failed.stdout.splitlines()[-1], r"FAILED: [0-9]+ pairs of vertices too near")
         self.expect(WRONG_USE, "check", self.mesh, "--min-separation", 0)
+
+    def test_a_warning_of_slivers_and_not_of_small_triangles(self):
+        self.expect(0, self.molecule("dmso"), "--raw", "-o", self.folder / "raw.off")
+        for mesh, is_warned in [(self.mesh, False), (self.folder / "raw.off", True)]:
+            self.assertEqual("WARNING" in self.expect(0, "check", mesh).stdout, is_warned, mesh)
+        self.expect(0, self.molecule("dmso"), "--spacing", 0.04, "-o", self.mesh)
+        near = self.findings()["near_vertices"]
+        self.assertGreater(near["pairs"], 1000)
+        self.assertEqual(near["crowded"], 0)
 
     def test_a_cavity_turned_the_wrong_way(self):
         def sphere(size, order):

@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <sstream>
+
 #include "catch2.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/write_mesh.h"
@@ -227,6 +229,12 @@ TEST_CASE("smesh counted from 1, with comments") {
   CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
   CHECK(message("2 3\n1 0 0 0\n3 1 0 0\n", "a.smesh").find("a.smesh:3: expected a node") == 0);
   CHECK(message("1 3\n1 0 0 0\n1\n3 0 1 1\n", "a.smesh").find("a.smesh:4: expected a triangle") == 0);
+}
+
+TEST_CASE("a stream is read as a file of its name") {
+  std::istringstream input("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(read_mesh(input, "a.obj").mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(message("<?xml version=\"1.0\"?>\n<VTKFile>\n", "a.vtp").find("VTP is only written") != std::string::npos);
 }
 
 TEST_CASE("MSMS that is none") {

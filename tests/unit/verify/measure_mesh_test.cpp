@@ -121,6 +121,16 @@ TEST_CASE("near vertices are those that all pairs give") {
   }
 }
 
+TEST_CASE("vertices are crowded where their triangles are slivers, and not where these are small") {
+  CHECK(find_near_vertices(cube(0.01), 0.05).pairs == 28);
+  CHECK(find_near_vertices(cube(0.01), 0.05).crowded == 0);
+  TriangleMesh needle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.02}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  CHECK(find_near_vertices(needle, 0.05).crowded == 1);
+  CHECK(find_near_vertices(needle, 0.01).crowded == 0);
+  needle.vertices.push_back({1, 0, 0.03});  // of no triangle, beside one
+  CHECK(find_near_vertices(needle, 0.05).crowded == 2);
+}
+
 TEST_CASE("short edges are counted once each") {
   TriangleMesh mesh = cube(1);  // 12 edges of length 2, 6 diagonals
   CHECK(find_near_vertices(mesh, 1.9).short_edges == 0);
@@ -128,6 +138,7 @@ TEST_CASE("short edges are counted once each") {
   CHECK(find_near_vertices(mesh, 2.1).pairs == 12);
   CHECK(find_near_vertices(mesh, 3.0).short_edges == 18);
   CHECK(find_near_vertices(mesh, 3.0).pairs == 24);  // the other diagonals of the faces too
+  CHECK(find_near_vertices(mesh, 3.0).crowded == 0);
   CHECK_THROWS_AS(find_near_vertices(mesh, 0.0), OptionError);
   CHECK_THROWS_AS(find_near_vertices(mesh, std::nan("")), OptionError);
 }

@@ -1,0 +1,65 @@
+#include "validators.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "gaussmesh/nearest_name.h"
+
+namespace gaussmesh::app {
+namespace {
+
+/// The number that the whole text is, if it is finite. As CLI11 does, a plus in front is taken.
+std::optional<double> finite_number(const std::string& text) {
+  const char* const begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+/// Without zeros behind, as people write it.
+std::string number_text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::string join_names(const std::vector<std::string>& names, const std::string& separator) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
+  return text;
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [names](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) return std::string();
+        return "expected " + join_names(names, ", ") + ", got '" + name + "'; did you mean '" +
+               nearest_name(name, names) + "'?";
+      },
+      "");
+}
+
+CLI::Validator number_between(double low, double high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) {
+        const std::optional<double> value = finite_number(text);
+        if (value && *value >= low && *value <= high) return std::string();
+        return "expected a number from " + number_text(low) + " to " + number_text(high) + ", got '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const std::optional<double> value = finite_number(text);
+        return value && *value > 0.0 ? std::string() : "expected a number > 0, got '" + text + "'";
+      },
+      "");
+}
+
+}  // namespace gaussmesh::app
