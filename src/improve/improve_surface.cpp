@@ -40,11 +40,10 @@ constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, fal
                              {1, true, true},   {1, true, true},   {1, true, true},  {1, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-WholeMesh start_with(SurfaceMesh&& traced, double spacing) {
+WholeMesh start_with(SurfaceMesh traced, double spacing) {
   WholeMesh mesh;
   mesh.triangles = std::move(traced.triangles);
-  mesh.at.reserve(traced.points.size());
-  mesh.normal.reserve(traced.points.size());
+  mesh.reserve(traced.points.size());
   for (const SurfacePoint& p : traced.points) {
     mesh.at.push_back(to_angstrom(p.position));
     mesh.normal.push_back(p.normal);
@@ -109,7 +108,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
 }
 
-SurfaceMesh finish(WholeMesh&& mesh) {
+SurfaceMesh finish(WholeMesh mesh) {
   SurfaceMesh result;
   result.triangles = std::move(mesh.triangles);
   result.points.resize(mesh.at.size());
@@ -131,13 +130,13 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   int number = 0;
   const auto run = [&](const Sweep& sweep) {
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
-    MeshBlocks blocks(mesh, edge, {shift, shift, shift});
+    MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
       BlockMesh block = blocks.extract(b);
       improve_block(block, field, now, guarding, sweep);
       blocks.store(b, std::move(block));
     });
-    mesh = blocks.join(threads);
+    mesh = std::move(blocks).join(threads);
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);

@@ -43,8 +43,9 @@ void fill_lists(const std::vector<std::array<std::uint32_t, 2>>& pairs, std::siz
 
 }  // namespace
 
-MeshBlocks::MeshBlocks(const WholeMesh& mesh, double edge, const Vec3& shift)
-    : mesh_(mesh), block_of_(mesh.at.size()), local_(mesh.at.size()) {
+MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift)
+    : mesh_(std::move(whole)), block_of_(mesh_.at.size()), local_(mesh_.at.size()) {
+  const WholeMesh& mesh = mesh_;
   const std::array<Planes, 3> planes{Planes{edge, shift[0]}, {edge, shift[1]}, {edge, shift[2]}};
   std::unordered_map<Cube, std::uint32_t, CubeHash> blocks;
   std::vector<std::uint32_t> counts;
@@ -172,37 +173,55 @@ void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
   for (std::uint32_t i = first_triangle_[block]; i < first_triangle_[block + 1]; ++i) {
     for (const std::uint32_t v : mesh_.triangles[triangles_[i]]) is_used[local_[v]] = 1;
   }
-  Stored& result = stored_[block];
-  result.number.assign(worked.at.size(), HalfEdgeMesh::kNone);
-  for (std::uint32_t v = 0; v < worked.at.size(); ++v) {
-    const bool is_kept = c.has_vertex(v) || (v < own && !is_used[v]);
-    if (!is_kept) continue;
-    result.number[v] = static_cast<std::uint32_t>(result.part.at.size());
-    result.part.at.push_back(worked.at[v]);
-    result.part.normal.push_back(worked.normal[v]);
-    result.part.size.push_back(worked.size[v]);
-    result.part.refinement.push_back(worked.refinement[v]);
+  // Many parts are kept at a time, so none has more room than it needs.
+  std::vector<std::uint32_t> number(worked.at.size(), HalfEdgeMesh::kNone);
+  std::uint32_t vertices = 0;
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (c.has_vertex(v) || (v < own && !is_used[v])) number[v] = vertices++;
   }
+  WholeMesh part;
+  part.reserve(vertices);
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == HalfEdgeMesh::kNone) continue;
+    part.at.push_back(worked.at[v]);
+    part.normal.push_back(worked.normal[v]);
+    part.size.push_back(worked.size[v]);
+    part.refinement.push_back(worked.refinement[v]);
+  }
+  std::size_t triangles = 0;
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) triangles += c.has_triangle(t);
+  part.triangles.reserve(triangles);
   for (std::uint32_t t = 0; t < c.triangles(); ++t) {
     if (!c.has_triangle(t)) continue;
     const Triangle v = c.triangle(t);
-    result.part.triangles.push_back({result.number[v[0]], result.number[v[1]], result.number[v[2]]});
+    part.triangles.push_back({number[v[0]], number[v[1]], number[v[2]]});
   }
-  result.number.resize(own);
+  stored_[block].number.assign(number.begin(), number.begin() + own);
+  stored_[block].part = std::move(part);
 }
 
-WholeMesh MeshBlocks::join(int threads) {
+WholeMesh MeshBlocks::join(int threads) && {
   std::vector<std::uint32_t> first_vertex(size() + 1, 0), first_triangle(size() + 1, 0);
   for (std::size_t b = 0; b < size(); ++b) {
     first_vertex[b + 1] = first_vertex[b] + static_cast<std::uint32_t>(stored_[b].part.at.size());
     first_triangle[b + 1] = first_triangle[b] + static_cast<std::uint32_t>(stored_[b].part.triangles.size());
   }
+  std::vector<Triangle> between;
+  between.reserve(between_.size());
+  for (const std::uint32_t t : between_) {
+    Triangle joined = mesh_.triangles[t];
+    for (std::uint32_t& v : joined) v = first_vertex[block_of_[v]] + stored_[block_of_[v]].number[local_[v]];
+    between.push_back(joined);
+  }
+  mesh_ = {};
+  for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_}) *list = std::vector<std::uint32_t>();
+
   WholeMesh result;
   result.at.resize(first_vertex.back());
   result.normal.resize(first_vertex.back());
   result.size.resize(first_vertex.back());
   result.refinement.resize(first_vertex.back());
-  result.triangles.resize(first_triangle.back() + between_.size());
+  result.triangles.resize(first_triangle.back() + between.size());
   parallel_for(size(), threads, [&](std::size_t b) {
     WholeMesh& part = stored_[b].part;
     std::copy(part.at.begin(), part.at.end(), result.at.begin() + first_vertex[b]);
@@ -215,12 +234,7 @@ WholeMesh MeshBlocks::join(int threads) {
     }
     part = {};
   });
-  std::uint32_t at = first_triangle.back();
-  for (const std::uint32_t t : between_) {
-    Triangle joined = mesh_.triangles[t];
-    for (std::uint32_t& v : joined) v = first_vertex[block_of_[v]] + stored_[block_of_[v]].number[local_[v]];
-    result.triangles[at++] = joined;
-  }
+  std::copy(between.begin(), between.end(), result.triangles.begin() + first_triangle.back());
   return result;
 }
 

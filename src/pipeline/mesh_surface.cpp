@@ -16,11 +16,36 @@
 #include "pipeline/critical_point.h"
 #include "pipeline/trace_surface.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace gaussmesh {
 namespace {
 
 /// How far vertices may be from phi = c (A): the promise of mesh_surface().
 constexpr double kVertexTolerance = 1e-6;
+
+/// Hands memory that is free to the system: what a stage leaves behind in many small pieces is of no use to the large
+/// arrays of the next.
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+/// The judge knows nothing of options: it takes as many threads as OpenMP says. That is what was asked for, until this
+/// ends.
+class JudgeThreads {
+ public:
+  explicit JudgeThreads(int threads) : before_(omp_get_max_threads()) { omp_set_num_threads(threads); }
+  JudgeThreads(const JudgeThreads&) = delete;
+  JudgeThreads& operator=(const JudgeThreads&) = delete;
+  ~JudgeThreads() { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+};
 
 /// Measures the stages one after the other.
 class Stopwatch {
@@ -29,6 +54,7 @@ class Stopwatch {
       : stages_(stages), on_stage_end_(std::move(on_stage_end)) {}
 
   void finished(const std::string& name) {
+    give_back_memory();
     if (on_stage_end_) on_stage_end_(name);
     const auto now = Clock::now();
     const double time_s = std::chrono::duration<double>(now - last_).count();
@@ -83,7 +109,7 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-void to_mesh(SurfaceMesh&& surface, MeshResult& result) {
+void to_mesh(SurfaceMesh surface, MeshResult& result) {
   result.mesh.vertices.clear();
   result.normals.clear();
   result.mesh.vertices.reserve(surface.points.size());
@@ -190,6 +216,7 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
 bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
              int threads, Stopwatch& watch, MeshResult& result) {
   const std::int64_t chi = euler_number(traced);
+  result.mesh = {};  // of an attempt before
   SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads);
   const bool same_topology = euler_number(improved) == chi;
   to_mesh(std::move(improved), result);
@@ -206,6 +233,7 @@ double spacing_for_density(double vertices_per_A2) { return std::sqrt(2.0 / (std
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_options(atoms, options);
   const int threads = thread_count(options.threads);
+  const JudgeThreads judge_threads(threads);
   MeshResult result;
   MeshReport& report = result.report;
   report.atoms = atoms.size();

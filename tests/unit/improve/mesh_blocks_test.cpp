@@ -43,7 +43,7 @@ TEST_CASE("blocks cut out and joined again are the mesh as it was") {
     MeshBlocks blocks(mesh, edge, {0.3, 0.3, 0.3});
     CHECK((edge > 50.0 || blocks.size() > 1));
     for (std::size_t b = blocks.size(); b-- > 0;) blocks.store(b, blocks.extract(b));
-    const WholeMesh joined = blocks.join(2);
+    const WholeMesh joined = std::move(blocks).join(2);
     CHECK(joined.at.size() == mesh.at.size());
     CHECK(by_place(joined) == by_place(mesh));
   }
