@@ -23,8 +23,8 @@ struct SecondSums {
 };
 
 GAUSSMESH_SIMD_CLONES
-SecondSums second_moments(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
-                          double px, double py, double pz) {
+SecondSums second_moments(const double* x, const double* y, const double* z, const double* w, std::size_t n,
+                          double d, double px, double py, double pz) {
   double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 #pragma omp simd reduction(+ : total, sx, sy, sz, xx, yy, zz, xy, xz, yz)

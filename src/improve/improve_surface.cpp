@@ -13,15 +13,16 @@ namespace {
 
 /// Edges beyond these factors of the wanted size are split or collapsed. Their geometric mean and the relaxation
 /// between make the mean edge what is wanted.
-constexpr double kSplitFactor = 1.35;
-constexpr double kCollapseFactor = 0.7;
+constexpr double kSplitFactor = 1.45;
+constexpr double kCollapseFactor = 0.65;
 
 /// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
 constexpr double kBlockEdge = 24.0;
 
 /// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this
 /// factor, so that the mean edge is what was asked for.
-constexpr double kLargestFactor = 1.15;
+constexpr double kLargestFactor = 1.25;
+constexpr int kSweepsForLargest = 2;  ///< after each of so many it is found anew
 
 /// Where triangles are much too large they are first cut to size.
 constexpr int kMostHalvings = 4;
@@ -140,8 +141,9 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
-    if (&sweep == &kSweeps[1]) {
-      now.largest = targets.spacing * std::clamp(targets.spacing / mean_edge(mesh), 1.0, kLargestFactor);
+    if (number <= kSweepsForLargest) {
+      const double wish = now.largest * targets.spacing / mean_edge(mesh);
+      now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
     }
   }
   return finish(std::move(mesh));

@@ -29,11 +29,15 @@ Vec3 ideal_place(const BlockMesh& mesh, Index v) {
 
 std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field) {
   constexpr double kLeastSine = 0.3;
+  constexpr double kLeastMove = 0.01;  // times the wanted size; less does not show
   const HalfEdgeMesh& c = mesh.connectivity;
   std::size_t moved = 0;
   for (Index v = 0; v < c.vertices(); ++v) {
     if (!mesh.is_active[v] || !c.has_vertex(v) || !c.is_inner(v)) continue;
-    const auto place = field.project(ideal_place(mesh, v), 0.5 * double(mesh.size[v]));
+    const Vec3 ideal = ideal_place(mesh, v), move = ideal - mesh.at[v];
+    const double size = double(mesh.size[v]);
+    if (dot(move, move) < kLeastMove * size * kLeastMove * size) continue;
+    const auto place = field.project(ideal, 0.5 * size);
     if (place && place->at != mesh.at[v]) moved += try_move(mesh, guard, v, *place, kLeastSine);
   }
   return moved;

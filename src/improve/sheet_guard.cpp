@@ -30,8 +30,11 @@ struct NormalBox {
 /// Vertices whose normals differ by more than this (cosine; 75 degrees) and which are near are of two sheets.
 constexpr double kOtherSheet = 0.25;
 
-/// Edges are rarely longer than this many wanted sizes; farther away triangles do not reach.
-constexpr double kReachInSizes = 1.6;
+/// What counts as near, in wanted sizes. Triangles of that size turn by about a radian at most, and lie within a
+/// fifth of it from the surface: sheets farther apart than two fifths cannot meet, and where they are nearer, one
+/// of them has a vertex within this of some vertex of the other. Larger means more exact tests, each of them for
+/// nothing.
+constexpr double kReachInSizes = 1.0;
 
 /// The vertices of a block in a grid of cells as wide as `reach`.
 class VertexGrid {

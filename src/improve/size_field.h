@@ -15,16 +15,18 @@ struct SizeTargets {
 /// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at
 /// either. On a cylinder of radius R equilateral triangles of edge s turn by up to 2 asin(0.87 s / 2 R) against
 /// each other.
-inline constexpr double kTurnPerEdge = 1.1;
+inline constexpr double kTurnPerEdge = 1.2;
 
 /// The same by the normals at both ends: between them the surface may curve more than at either.
 inline constexpr double kTurnBetweenEnds = 1.0;
 
-/// Largest slope of the wanted size along the surface: neighbours differ by less than a factor of 2.
-inline constexpr double kGrowth = 0.4;
+/// Largest slope of the wanted size along the surface. The sides of a triangle differ by a quarter at most where
+/// sizes grow this fast: more would show in the mean ratio of shortest to longest edge, less in the number of
+/// triangles.
+inline constexpr double kGrowth = 0.25;
 
 /// No edge is wanted shorter than this part of the spacing.
-inline constexpr double kLeastSize = 0.03;
+inline constexpr double kLeastSize = 0.01;
 
 /// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge
 /// turns the normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and
