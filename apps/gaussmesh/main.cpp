@@ -13,6 +13,7 @@
 #include "help_format.h"
 #include "manual.h"
 #include "measure_command.h"
+#include "memory_limit.h"
 #include "mesh_command.h"
 #include "validators.h"
 
@@ -162,6 +163,8 @@ int run_and_tell(int argc, char** argv) {
   } catch (const gaussmesh::InputError& error) {
     return fail(error, kInput);
   } catch (const gaussmesh::CannotMeshError& error) {
+    return fail(error, kCannotMesh);
+  } catch (const NoRoomOnDisk& error) {
     return fail(error, kCannotMesh);
   } catch (const std::exception& error) {
     return fail(error, kInternal);

@@ -6,6 +6,7 @@
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/select_components.h"
+#include "memory_limit.h"
 #include "output_options.h"
 #include "progress.h"
 #include "validators.h"
@@ -27,6 +28,12 @@ void require_sense(const MeshCommand& command) {
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
+}
+
+/// Where temporary files for an output belong.
+std::filesystem::path folder_of(const std::filesystem::path& output) {
+  if (output == "-") return std::filesystem::temp_directory_path();
+  return output.has_parent_path() ? output.parent_path() : ".";
 }
 
 /// What is written.
@@ -181,6 +188,13 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->type_name("N")
       ->check(number_between(0.0, 4096.0))
       ->group(running);
+  program
+      .add_option("--max-memory", command.max_memory,
+                  "memory to get by with, such as 500M or 4G, at least 128M: what does not fit is kept in a temporary "
+                  "file beside the mesh (bytes; default: no limit)")
+      ->type_name("SIZE")
+      ->transform(memory_size(kLeastMemory))
+      ->group(running);
   CLI::Option* quiet =
       program.add_flag("--quiet", command.quiet, "say nothing but errors (default: off)")->group(running);
   program.add_flag("--verbose", command.verbose, "say also how each stage went (default: off)")
@@ -191,6 +205,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 int run_mesh(const MeshCommand& command) {
   require_sense(command);
   require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
+  if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
   const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);
   MeshOptions options = command.options;

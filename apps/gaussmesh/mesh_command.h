@@ -23,6 +23,7 @@ struct MeshCommand {
   bool no_header = false;
   bool quiet = false;
   bool verbose = false;
+  std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
   WriteOptions writing;
   MeshOptions options;  ///< but decay and isovalue, which are in `surface`
 };

@@ -25,6 +25,23 @@ std::string number_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+/// The bytes that a size of memory means, if it is one.
+std::optional<std::uint64_t> bytes_of(const std::string& text) {
+  constexpr std::string_view kUnits = "KMGT";
+  constexpr double kMost = 0x1p62;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const std::optional<double> number = finite_number(text.substr(0, digits));
+  std::string unit = text.substr(digits);
+  for (const std::string_view end : {"iB", "B"}) {
+    if (unit.size() > end.size() && unit.ends_with(end)) unit.resize(unit.size() - end.size());
+  }
+  if (unit == "k") unit = "K";
+  const std::size_t power = unit.empty() ? 0 : kUnits.find(unit) + 1;
+  if (!number || unit.size() > 1 || (!unit.empty() && power == 0)) return std::nullopt;
+  const double bytes = *number * std::pow(1024.0, static_cast<double>(power));
+  return bytes < kMost ? std::optional(static_cast<std::uint64_t>(bytes)) : std::nullopt;
+}
+
 }  // namespace
 
 std::string join_names(const std::vector<std::string>& names, const std::string& separator) {
@@ -58,6 +75,20 @@ CLI::Validator positive_number() {
       [](const std::string& text) {
         const std::optional<double> value = finite_number(text);
         return value && *value > 0.0 ? std::string() : "expected a number > 0, got '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator memory_size(std::uint64_t least) {
+  return CLI::Validator(
+      [least](std::string& text) {
+        const std::optional<std::uint64_t> bytes = bytes_of(text);
+        if (!bytes || *bytes < least) {
+          return "expected a size of at least " + std::to_string(least >> 20) + "M such as 500M or 4G, got '" +
+                 text + "'";
+        }
+        text = std::to_string(*bytes);
+        return std::string();
       },
       "");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,9 @@ CLI::Validator number_between(double low, double high);
 
 /// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
 CLI::Validator positive_number();
+
+/// Takes sizes of memory from `least` (bytes) on: whole numbers of bytes, or numbers of K, M, G or T of 1024, 1024^2,
+/// ... bytes, with or without a B or iB behind. Makes bytes of them.
+CLI::Validator memory_size(std::uint64_t least);
 
 }  // namespace gaussmesh::app

@@ -1,0 +1,237 @@
+// The program's own `new` and `delete`: malloc and free until there is a limit, and pieces of the file beyond it.
+//
+// The file is cut into units of 1 MiB. A large piece has units of its own, which go back to the disk with it and
+// are not used again: addresses, and offsets in a file with holes, are not scarce. Small pieces of one size share a
+// unit, and are used again for that size.
+
+#include "memory_limit.h"
+
+#include <fcntl.h>
+#include <malloc.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "gaussmesh/error.h"
+
+namespace {
+
+using gaussmesh::app::NoRoomOnDisk;
+
+constexpr std::size_t kUnit = std::size_t{1} << 20;
+constexpr std::size_t kUnits = std::size_t{1} << 23;  // 8 TiB: what an ext4 file can hold, with room
+constexpr std::size_t kSpan = kUnits * kUnit;
+
+// Sizes of small pieces: 16, 32, ... 1024, then four for each doubling up to kLargestSmall.
+constexpr std::size_t kStep = 16;
+constexpr std::size_t kFineSizes = 64;
+constexpr std::size_t kDoublings = 8;
+constexpr std::size_t kSizes = kFineSizes + 4 * kDoublings;
+constexpr std::size_t kLargestSmall = (kStep * kFineSizes) << kDoublings;
+
+struct PieceSize {
+  std::size_t number;
+  std::size_t bytes;
+};
+
+/// The smallest size that holds `bytes`, 1 to kLargestSmall.
+PieceSize piece_size(std::size_t bytes) {
+  if (bytes <= kStep * kFineSizes) {
+    const std::size_t number = (bytes - 1) / kStep;
+    return {number, (number + 1) * kStep};
+  }
+  const auto doubling = static_cast<std::size_t>(std::bit_width(bytes - 1)) - 1;
+  const std::size_t low = std::size_t{1} << doubling;
+  const std::size_t quarter = (bytes - 1 - low) / (low / 4);
+  return {kFineSizes + 4 * (doubling - std::bit_width(kStep * kFineSizes) + 1) + quarter,
+          low + (quarter + 1) * (low / 4)};
+}
+
+struct FreePiece {
+  FreePiece* next;
+};
+
+/// Small pieces of one size.
+struct Shelf {
+  std::mutex mutex;
+  FreePiece* free = nullptr;
+  char* fresh = nullptr;  ///< never used so far, up to `end`
+  char* end = nullptr;
+};
+
+struct Spool {
+  std::atomic<bool> is_on = false;
+  std::atomic<std::int64_t> on_heap = 0;  ///< bytes
+  std::int64_t most_on_heap = 0;
+  std::uint64_t most_resident = 0, enough_resident = 0;  ///< bytes: where pages are unmapped, and until when
+  int file = -1;
+  int statm = -1;  ///< /proc/self/statm
+  char* base = nullptr;
+  std::mutex mutex;
+  std::atomic<std::size_t> units = 0;  ///< taken so far
+  std::array<Shelf, kSizes> shelves;
+  std::mutex sweeping;
+  std::size_t sweep_at = 0;  ///< unit that is next to be unmapped
+};
+
+// Neither is ever destroyed: pieces are given back until the very end.
+constinit Spool spool;
+/// By unit: the number of the size of its pieces, or kSizes and the units of the large piece that begins there.
+constinit std::uint32_t unit_use[kUnits];
+
+/// Bytes of the program that are in memory.
+std::uint64_t resident() {
+  char text[128] = {};
+  if (::pread(spool.statm, text, sizeof text - 1, 0) <= 0) return 0;
+  char* second = text;
+  std::strtoull(text, &second, 10);
+  return std::strtoull(second, nullptr, 10) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Unmaps pages of the file if too many are resident. Nothing gets lost: what was written to a shared mapping is in
+/// the file.
+void make_room() {
+  constexpr std::size_t kAtOnce = 4;  // units
+  if (resident() < spool.most_resident || !spool.sweeping.try_lock()) return;
+  const std::lock_guard lock(spool.sweeping, std::adopt_lock);
+  const std::size_t all = spool.units;
+  for (std::size_t seen = 0; seen < all && resident() > spool.enough_resident; seen += kAtOnce) {
+    if (spool.sweep_at >= all) spool.sweep_at = 0;
+    ::madvise(spool.base + spool.sweep_at * kUnit, kAtOnce * kUnit, MADV_DONTNEED);
+    spool.sweep_at += kAtOnce;
+  }
+}
+
+/// New units, of which the first `bytes` are used.
+char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
+  make_room();
+  const std::lock_guard lock(spool.mutex);
+  const std::size_t first = spool.units;
+  if (units > kUnits - first) throw NoRoomOnDisk();
+  // Room is set aside now, since a page that cannot be written later is a signal and not an error.
+  const auto offset = static_cast<off_t>(first * kUnit);
+  int result = 0;
+  do {
+    result = ::fallocate(spool.file, 0, offset, static_cast<off_t>(bytes));
+  } while (result != 0 && errno == EINTR);
+  if (result != 0 && errno == EOPNOTSUPP) result = ::ftruncate(spool.file, offset + static_cast<off_t>(bytes));
+  if (result != 0) throw NoRoomOnDisk();
+  spool.units = first + units;
+  unit_use[first] = use;
+  return spool.base + offset;
+}
+
+void* take_piece(std::size_t bytes) {
+  if (bytes > kLargestSmall) {
+    if (bytes > kSpan) throw std::bad_alloc();
+    const std::size_t units = (bytes + kUnit - 1) / kUnit;
+    return take_units(units, bytes, static_cast<std::uint32_t>(kSizes + units));
+  }
+  const PieceSize size = piece_size(bytes);
+  Shelf& shelf = spool.shelves[size.number];
+  const std::lock_guard lock(shelf.mutex);
+  if (shelf.free != nullptr) return std::exchange(shelf.free, shelf.free->next);
+  if (static_cast<std::size_t>(shelf.end - shelf.fresh) < size.bytes) {
+    shelf.fresh = take_units(1, kUnit, static_cast<std::uint32_t>(size.number));
+    shelf.end = shelf.fresh + kUnit;
+  }
+  return std::exchange(shelf.fresh, shelf.fresh + size.bytes);
+}
+
+bool is_in_spool(const void* piece) {
+  return reinterpret_cast<std::uintptr_t>(piece) - reinterpret_cast<std::uintptr_t>(spool.base) < kSpan &&
+         spool.base != nullptr;
+}
+
+void give_back_piece(void* piece) {
+  const auto unit = static_cast<std::size_t>(static_cast<char*>(piece) - spool.base) / kUnit;
+  const std::size_t use = unit_use[unit];
+  if (use > kSizes) {
+    // Not every file system can make holes; then the room comes back at the end of the program.
+    if (::madvise(piece, (use - kSizes) * kUnit, MADV_REMOVE) != 0)
+      ::madvise(piece, (use - kSizes) * kUnit, MADV_DONTNEED);
+    return;
+  }
+  Shelf& shelf = spool.shelves[use];
+  const std::lock_guard lock(shelf.mutex);
+  shelf.free = ::new (piece) FreePiece{shelf.free};
+}
+
+/// Does what is to be done about the limit twice in a millisecond.
+void keep_limit() {
+  constexpr auto kPause = std::chrono::microseconds(500);
+  for (;; std::this_thread::sleep_for(kPause)) make_room();
+}
+
+[[noreturn]] void fail(const std::filesystem::path& folder) {
+  throw gaussmesh::InputError("max-memory: " + folder.string() +
+                              ": the temporary file cannot be created: " + std::strerror(errno));
+}
+
+}  // namespace
+
+namespace gaussmesh::app {
+
+void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
+  std::string name = (folder / "gaussmesh.XXXXXX").string();
+  spool.file = ::mkostemp(name.data(), O_CLOEXEC);
+  if (spool.file < 0 || ::unlink(name.c_str()) != 0) fail(folder);
+  void* const base = ::mmap(nullptr, kSpan, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, spool.file, 0);
+  if (base == MAP_FAILED) fail(folder);
+  spool.statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (spool.statm < 0) fail("/proc/self/statm");
+  spool.base = static_cast<char*>(base);
+  // Until a busy system lets the sweeper run, some MB may be touched.
+  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{32} << 20;
+  spool.most_on_heap = static_cast<std::int64_t>(limit / 4);
+  spool.most_resident = limit - std::max(limit / 8, kTouchedMeanwhile);
+  spool.enough_resident = spool.most_resident - limit / 8;
+  std::thread(keep_limit).detach();
+  spool.is_on = true;
+}
+
+}  // namespace gaussmesh::app
+
+void* operator new(std::size_t size) {
+  const std::size_t bytes = size > 0 ? size : 1;
+  const bool is_limited = spool.is_on.load(std::memory_order_relaxed);
+  if (is_limited &&
+      spool.on_heap.load(std::memory_order_relaxed) + static_cast<std::int64_t>(bytes) > spool.most_on_heap) {
+    return take_piece(bytes);
+  }
+  void* const piece = std::malloc(bytes);
+  if (piece == nullptr) throw std::bad_alloc();
+  if (is_limited) spool.on_heap += static_cast<std::int64_t>(::malloc_usable_size(piece));
+  return piece;
+}
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
+void operator delete(void* piece) noexcept {
+  if (piece == nullptr) return;
+  if (is_in_spool(piece)) return give_back_piece(piece);
+  if (spool.is_on.load(std::memory_order_relaxed))
+    spool.on_heap -= static_cast<std::int64_t>(::malloc_usable_size(piece));
+  std::free(piece);
+}
+
+void operator delete(void* piece, std::size_t) noexcept { operator delete(piece); }

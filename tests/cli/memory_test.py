@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""The limit on memory: the same mesh within it, and what is said where it cannot be kept.
+
+    tests/cli/memory_test.py --program build/bin/gaussmesh --data data [CLASS...]
+"""
+
+import filecmp
+import json
+import os
+import resource
+import subprocess
+import sys
+
+from support import CANNOT_MESH, WRONG_USE, CliTest, run_tests, settings
+
+MIB = 1 << 20
+
+
+class Memory(CliTest):
+    def peak(self, *arguments):
+        """Runs the program; returns the most of it that was in memory (bytes), or of this test if that was more."""
+        command = [settings.program, *map(str, arguments)]
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            message = process.stderr.read()
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0, message)
+        return usage.ru_maxrss * 1024
+
+    def both(self, limit, *arguments):
+        """One molecule without and with the limit; returns both peaks. The meshes are the same, bit by bit."""
+        molecule = self.molecule("fas2")
+        free = self.peak(molecule, *arguments, "--quiet", "-o", "free.off", "--report", "free.json")
+        limited = self.peak(molecule, *arguments, "--quiet", "-o", "limited.off", "--report", "limited.json",
+                            "--max-memory", limit)
+        self.assertTrue(filecmp.cmp(self.folder / "free.off", self.folder / "limited.off", shallow=False))
+        reports = [json.loads((self.folder / name).read_text()) for name in ("free.json", "limited.json")]
+        for report in reports:
+            self.assertEqual([c["kind"] for c in report["components"]], ["outside", "cavity"])
+            del report["stages"]
+        self.assertEqual(*reports)
+        self.assertEqual(self.files(), ["free.json", "free.off", "limited.json", "limited.off"])
+        return free, limited
+
+    def test_keeps_the_limit_and_the_mesh(self):
+        free, limited = self.both("128M", "--raw", "--spacing", 0.08, "--threads", 2)
+        self.assertGreater(free, 140 * MIB, "a limit of 128M is one")
+        self.assertLess(limited, 128 * MIB)
+
+    def test_improved_meshes_are_the_same(self):
+        self.both("128MiB", "--spacing", 0.3, "--threads", 2)
+
+    def test_sizes(self):
+        for size in ("127M", "0", "-1G", "1X", "G", "1.2.3G", "4 apples", "1e9", ""):
+            result = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, "--max-memory", size)
+            self.assertIn("expected a size of at least 128M such as 500M or 4G", result.stderr, size)
+        for size in ("128M", "0.25G", "4GB", "2TiB", "200000k", "134217728"):
+            self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--max-memory", size)
+
+    def test_says_that_the_disk_is_full(self):
+        command = [settings.program, self.molecule("fas2"), "--raw", "--spacing", 0.12, "-o", self.mesh, "--max-memory",
+                   "128M", "--quiet"]
+        result = subprocess.run(list(map(str, command)), cwd=self.folder, capture_output=True, text=True, timeout=200,
+                                check=False,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (8 * MIB, 8 * MIB)))
+        self.assertEqual(result.returncode, CANNOT_MESH, result.stderr)
+        self.assertIn("max-memory: no room for the temporary file", result.stderr)
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    sys.exit(run_tests(__name__))
