@@ -204,6 +204,7 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
   } catch (const LatticeDegenerate& degenerate) {
     throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
   }
+  give_back_memory();  // cells, roots and curves, most of what there is up to here
   describe_trace(trace, options.spacing, report);
   if (trace.surface.triangles.empty()) {
     throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
