@@ -66,7 +66,7 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
 const NearAtoms& BlockField::atoms_at(const Vec3& point) {
   std::array<int, 3> index;
   for (int k = 0; k < 3; ++k) {
-    const double i = std::floor((point[k] - box_.lo[k]) / cell_size_);
+    const double i = (point[k] - box_.lo[k]) / cell_size_;
     index[k] = i <= 0.0 ? 0 : i >= cells_[k] - 1 ? cells_[k] - 1 : static_cast<int>(i);
   }
   AtomList& list = lists_[static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
@@ -99,9 +99,13 @@ FieldJet BlockField::jet(const Vec3& p) {
   return jet;
 }
 
-std::optional<Place> BlockField::project(const Vec3& point, double farthest) {
-  // Newton's method squares the error: a step below this (A) leaves less than a rounding of the result.
-  constexpr double kGoodStep = 1e-5;
+std::optional<Place> BlockField::project(const Vec3& point, double farthest, Accuracy accuracy) {
+  // Newton's method squares the error: a step s leaves about s^2 k / 2 where the curvature is k. The first of these
+  // (A) leaves less than a rounding of the result; the second grows with the triangles, since those are small where
+  // k is large.
+  constexpr double kGoodStep = 1e-5, kRoughStep = 1e-3, kRoughPart = 0.004;
+  const double good_step =
+      accuracy == Accuracy::kExact ? kGoodStep : std::clamp(kRoughPart * farthest, kGoodStep, kRoughStep);
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
     const PointValue v = evaluate(atoms_at(p), decay_, p);
@@ -111,8 +115,8 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest) {
     p = p + step / slope * v.gradient;
     const Vec3 moved = p - point;
     if (!(dot(moved, moved) <= farthest * farthest)) return std::nullopt;
-    if (std::abs(step) > kGoodStep) continue;
-    return Place{to_angstrom(to_units(p)), outward_normal(v.gradient)};
+    if (std::abs(step) > good_step) continue;
+    return Place{round_to_units(p), outward_normal(v.gradient)};
   }
   return std::nullopt;
 }

@@ -24,9 +24,15 @@ struct Place {
   Normal normal{};  ///< into the solvent
 };
 
+/// How near to the surface a vertex must come.
+enum class Accuracy {
+  kRough,  ///< within some 1e-6 A, which does while vertices still move; see settle_vertices()
+  kExact,  ///< within a rounding of its coordinates
+};
+
 /// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
-/// each block. What is left out of the sums is below e^-28 of the isovalue an atom; no bounds are kept, since the
-/// verdict on a finished mesh does not come from here.
+/// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom; no bounds are kept,
+/// since the verdict on a finished mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);
@@ -37,13 +43,13 @@ class BlockField {
   /// Newton's method on log phi along its gradient, from a point near the surface.
   /// @return nothing if that leads farther than `farthest` (A) away, or out of the box
   /// Cost: one or two sums over the atoms nearby.
-  std::optional<Place> project(const Vec3& point, double farthest);
+  std::optional<Place> project(const Vec3& point, double farthest, Accuracy accuracy = Accuracy::kExact);
 
   const Box& box() const { return box_; }
 
  private:
   static constexpr int kMostCells = 16;  ///< along an axis
-  static constexpr double kCut = 28.0;   ///< log-weight, relative to c, below which an atom is left out
+  static constexpr double kCut = 24.0;   ///< log-weight, relative to c, below which an atom is left out
 
   struct AtomList {
     NearAtoms atoms;

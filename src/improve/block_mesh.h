@@ -19,6 +19,7 @@ struct BlockMesh {
   std::vector<Vec3> at;         ///< A, whole units
   std::vector<Normal> normal;
   std::vector<float> size;               ///< wanted edge (A)
+  std::vector<float> curvature;          ///< larger principal one (1/A) in absolute value; negative: not yet known
   std::vector<float> refinement;         ///< factor of the size where neighbouring triangles turned too far
   std::vector<std::uint8_t> is_active;   ///< to be worked on
   std::vector<std::uint8_t> is_guarded;  ///< another sheet is near: triangles are kept apart by exact signs

@@ -93,6 +93,7 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   mesh.at.push_back(middle.at);
   mesh.normal.push_back(middle.normal);
   mesh.size.push_back(0.5f * (mesh.size[a] + mesh.size[b]));
+  mesh.curvature.push_back(-1.0f);
   mesh.refinement.push_back(std::min(mesh.refinement[a], mesh.refinement[b]));
   mesh.is_active.push_back(1);
   mesh.is_guarded.push_back(mesh.is_guarded[a] | mesh.is_guarded[b] | mesh.is_guarded[c.opposite(h)] |
@@ -111,6 +112,7 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
     mesh.at.pop_back();
     mesh.normal.pop_back();
     mesh.size.pop_back();
+    mesh.curvature.pop_back();
     mesh.refinement.pop_back();
     mesh.is_active.pop_back();
     mesh.is_guarded.pop_back();

@@ -17,7 +17,7 @@ constexpr double kSplitFactor = 1.45;
 constexpr double kCollapseFactor = 0.65;
 
 /// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
-constexpr double kBlockEdge = 24.0;
+constexpr double kBlockEdge = 32.0;
 
 /// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this
 /// factor, so that the mean edge is what was asked for.
@@ -35,10 +35,12 @@ constexpr int kRepairRounds = 3;
 struct Sweep {
   int rounds = 0;  ///< of splits, collapses, flips and relaxation
   bool repairs = false;
+  bool is_exact = false;  ///< leaves the vertices exactly on the surface
   bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
 };
-constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, false},
-                             {1, true, true},   {1, true, true},   {1, true, true},  {1, true, true}};
+constexpr Sweep kSweeps[] = {{3, false, false, false}, {3, false, false, false}, {3, true, false, false},
+                             {2, true, true, false},   {1, true, true, true},    {1, true, true, true},
+                             {1, true, true, true},    {1, true, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
 WholeMesh start_with(SurfaceMesh traced, double spacing) {
@@ -50,6 +52,7 @@ WholeMesh start_with(SurfaceMesh traced, double spacing) {
     mesh.normal.push_back(p.normal);
   }
   mesh.size.assign(mesh.at.size(), static_cast<float>(spacing));
+  mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
   return mesh;
 }
@@ -103,8 +106,9 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
     collapse_short_edges(mesh, guard, kCollapseFactor);
     flip_edges(mesh, guard);
     even_out_valences(mesh, guard);
-    relax_vertices(mesh, guard, field);
+    relax_vertices(mesh, guard, field, sweep.is_extra ? Accuracy::kExact : Accuracy::kRough);
   }
+  if (sweep.is_exact && !sweep.is_extra) settle_vertices(mesh, field);
   if (!sweep.is_extra) refine_sharp_edges(mesh);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
 }
@@ -144,6 +148,7 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
+      if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
   return finish(std::move(mesh));

@@ -135,16 +135,18 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
     triangles.push_back({local_[t[0]], local_[t[1]], local_[t[2]]});
   }
   const std::size_t count = own_count + outside.size();
-  BlockMesh result{HalfEdgeMesh(std::move(triangles), count), {}, {}, {}, {}, {}, {}, {}, boxes_[block]};
+  BlockMesh result{HalfEdgeMesh(std::move(triangles), count), {}, {}, {}, {}, {}, {}, {}, {}, boxes_[block]};
   const auto copy = [&](std::uint32_t v) {
     result.at.push_back(mesh_.at[v]);
     result.normal.push_back(mesh_.normal[v]);
     result.size.push_back(mesh_.size[v]);
+    result.curvature.push_back(mesh_.curvature[v]);
     result.refinement.push_back(mesh_.refinement[v]);
   };
   result.at.reserve(count + count / 4);
   result.normal.reserve(count + count / 4);
   result.size.reserve(count + count / 4);
+  result.curvature.reserve(count + count / 4);
   result.refinement.reserve(count + count / 4);
   for (std::size_t i = 0; i < own_count; ++i) copy(own[i]);
   for (const std::uint32_t v : outside) copy(v);
@@ -186,6 +188,7 @@ void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
     part.at.push_back(worked.at[v]);
     part.normal.push_back(worked.normal[v]);
     part.size.push_back(worked.size[v]);
+    part.curvature.push_back(worked.curvature[v]);
     part.refinement.push_back(worked.refinement[v]);
   }
   std::size_t triangles = 0;
@@ -220,6 +223,7 @@ WholeMesh MeshBlocks::join(int threads) && {
   result.at.resize(first_vertex.back());
   result.normal.resize(first_vertex.back());
   result.size.resize(first_vertex.back());
+  result.curvature.resize(first_vertex.back());
   result.refinement.resize(first_vertex.back());
   result.triangles.resize(first_triangle.back() + between.size());
   parallel_for(size(), threads, [&](std::size_t b) {
@@ -227,6 +231,7 @@ WholeMesh MeshBlocks::join(int threads) && {
     std::copy(part.at.begin(), part.at.end(), result.at.begin() + first_vertex[b]);
     std::copy(part.normal.begin(), part.normal.end(), result.normal.begin() + first_vertex[b]);
     std::copy(part.size.begin(), part.size.end(), result.size.begin() + first_vertex[b]);
+    std::copy(part.curvature.begin(), part.curvature.end(), result.curvature.begin() + first_vertex[b]);
     std::copy(part.refinement.begin(), part.refinement.end(), result.refinement.begin() + first_vertex[b]);
     std::uint32_t at = first_triangle[b];
     for (const Triangle& t : part.triangles) {

@@ -12,6 +12,7 @@ struct WholeMesh {
   std::vector<Vec3> at;  ///< A, whole units
   std::vector<Normal> normal;
   std::vector<float> size;  ///< wanted edge (A)
+  std::vector<float> curvature;
   std::vector<float> refinement;
   std::vector<Triangle> triangles;
 
@@ -20,6 +21,7 @@ struct WholeMesh {
     at.reserve(vertices);
     normal.reserve(vertices);
     size.reserve(vertices);
+    curvature.reserve(vertices);
     refinement.reserve(vertices);
   }
 };

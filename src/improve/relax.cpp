@@ -27,7 +27,7 @@ Vec3 ideal_place(const BlockMesh& mesh, Index v) {
 
 }  // namespace
 
-std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field) {
+std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field, Accuracy accuracy) {
   constexpr double kLeastSine = 0.3;
   constexpr double kLeastMove = 0.01;  // times the wanted size; less does not show
   const HalfEdgeMesh& c = mesh.connectivity;
@@ -37,10 +37,18 @@ std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field
     const Vec3 ideal = ideal_place(mesh, v), move = ideal - mesh.at[v];
     const double size = double(mesh.size[v]);
     if (dot(move, move) < kLeastMove * size * kLeastMove * size) continue;
-    const auto place = field.project(ideal, 0.5 * size);
+    const auto place = field.project(ideal, 0.5 * size, accuracy);
     if (place && place->at != mesh.at[v]) moved += try_move(mesh, guard, v, *place, kLeastSine);
   }
   return moved;
+}
+
+void settle_vertices(BlockMesh& mesh, BlockField& field) {
+  for (Index v = 0; v < mesh.at.size(); ++v) {
+    if (!mesh.contains(mesh.at[v])) continue;
+    const auto place = field.project(mesh.at[v], 0.5 * double(mesh.size[v]));
+    if (place) mesh.put(v, *place);
+  }
 }
 
 }  // namespace gaussmesh

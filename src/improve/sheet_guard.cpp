@@ -19,6 +19,12 @@ struct NormalBox {
       hi[k] = std::max(hi[k], other.hi[k]);
     }
   }
+  /// Least scalar product of n and a vector in the box.
+  float least_cosine(const Normal& n) const {
+    float sum = 0.0f;
+    for (int k = 0; k < 3; ++k) sum += std::min(n[k] * lo[k], n[k] * hi[k]);
+    return sum;
+  }
   /// |m - n|^2 = 2 - 2 cos for unit vectors.
   double most_chord_sq() const {
     double sum = 0.0;
@@ -56,7 +62,7 @@ class VertexGrid {
     for (std::uint32_t v = 0; v < mesh.at.size(); ++v) boxes_[cells_of_[v]].add(mesh.normal[v]);
   }
 
-  /// Calls mark(v) for every vertex that has one of another sheet within reach.
+  /// Calls mark(v) for every active vertex that has one of another sheet within reach.
   template <typename Mark>
   void find_close_sheets(const Mark& mark) const {
     constexpr double kChordSq = 2.0 - 2.0 * kOtherSheet;
@@ -79,13 +85,14 @@ class VertexGrid {
       }
       if (normals.most_chord_sq() < kChordSq) continue;
       for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-        if (has_other_sheet(sorted_[i], near.data(), count)) mark(sorted_[i]);
+        const std::uint32_t v = sorted_[i];
+        if (mesh_.is_active[v] && has_other_sheet(v, near.data(), count)) mark(v);
       }
     }
   }
 
  private:
-  static constexpr int kCells = 20;
+  static constexpr int kCells = 24;
 
   std::uint32_t cell_of(const Vec3& p) const {
     std::uint32_t cell = 0;
@@ -99,6 +106,7 @@ class VertexGrid {
   bool has_other_sheet(std::uint32_t v, const std::uint32_t* near, std::size_t count) const {
     const Vec3 n = as_vector(mesh_.normal[v]);
     for (std::size_t c = 0; c < count; ++c) {
+      if (boxes_[near[c]].least_cosine(mesh_.normal[v]) >= static_cast<float>(kOtherSheet)) continue;
       for (std::uint32_t i = first_[near[c]]; i < first_[near[c] + 1]; ++i) {
         const std::uint32_t w = sorted_[i];
         if (dot(n, mesh_.normal[w]) >= kOtherSheet) continue;

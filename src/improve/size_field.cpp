@@ -5,8 +5,7 @@ namespace {
 
 using Index = HalfEdgeMesh::Index;
 
-double wanted_size(const FieldJet& jet, const SizeTargets& targets) {
-  const double curvature = largest_curvature(jet);
+double wanted_size(double curvature, const SizeTargets& targets) {
   double size = std::min(kTurnPerEdge / curvature, targets.largest);
   // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
   // surface; edges may be up to half as long again as wanted.
@@ -14,31 +13,30 @@ double wanted_size(const FieldJet& jet, const SizeTargets& targets) {
   return std::max(size, kLeastSize * targets.spacing);
 }
 
+/// Each edge once; those on the boundary have one half only.
+bool is_first_half(const HalfEdgeMesh& c, Index h) { return c.twin(h) == HalfEdgeMesh::kNone || h < c.twin(h); }
+
 /// Lowers sizes until none grows faster than kGrowth.
 void limit_growth(BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
   bool changed = true;
   const auto limit = [&](Index u, Index v) {
-    const auto most = static_cast<float>(double(mesh.size[u]) + kGrowth * length(mesh.at[v] - mesh.at[u]));
+    if (mesh.size[u] > mesh.size[v]) std::swap(u, v);
+    const double more = double(mesh.size[v]) - double(mesh.size[u]);
+    const Vec3 edge = mesh.at[v] - mesh.at[u];
+    if (more * more <= kGrowth * kGrowth * dot(edge, edge)) return;
+    const auto most = static_cast<float>(double(mesh.size[u]) + kGrowth * length(edge));
     if (!(mesh.size[v] > most * 1.0001f)) return;
     mesh.size[v] = most;
     changed = true;
   };
   for (const Triangle& t : mesh.fixed) {
-    for (int i = 0; i < 3; ++i) {
-      limit(t[i], t[(i + 1) % 3]);
-      limit(t[(i + 1) % 3], t[i]);
-    }
+    for (int i = 0; i < 3; ++i) limit(t[i], t[(i + 1) % 3]);
   }
   while (changed) {
     changed = false;
-    for (Index t = 0; t < c.triangles(); ++t) {
-      if (!c.has_triangle(t)) continue;
-      const Triangle v = c.triangle(t);
-      for (int i = 0; i < 3; ++i) {
-        limit(v[i], v[(i + 1) % 3]);
-        limit(v[(i + 1) % 3], v[i]);
-      }
+    for (Index h = 0; h < c.half_edges(); ++h) {
+      if (c.has_triangle(h / 3) && is_first_half(c, h)) limit(c.from(h), c.to(h));
     }
   }
 }
@@ -49,15 +47,16 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   const HalfEdgeMesh& c = mesh.connectivity;
   for (Index v = 0; v < c.vertices(); ++v) {
     if (!mesh.is_active[v] || !c.has_vertex(v)) continue;
-    mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(field.jet(mesh.at[v]), targets));
+    if (mesh.curvature[v] < 0.0f) mesh.curvature[v] = static_cast<float>(largest_curvature(field.jet(mesh.at[v])));
+    mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(double(mesh.curvature[v]), targets));
   }
   for (Index h = 0; h < c.half_edges(); ++h) {
-    if (!c.has_triangle(h / 3)) continue;
+    if (!c.has_triangle(h / 3) || !is_first_half(c, h)) continue;
     const Index u = c.from(h), v = c.to(h);
-    const double turn = length(as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]));
-    if (turn <= kTurnBetweenEnds) continue;
+    const Vec3 turn = as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]);
+    if (dot(turn, turn) <= kTurnBetweenEnds * kTurnBetweenEnds) continue;
     const double most =
-        std::max(kTurnBetweenEnds / turn * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
+        std::max(kTurnBetweenEnds / length(turn) * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
     mesh.size[u] = std::min(mesh.size[u], static_cast<float>(most));
     mesh.size[v] = std::min(mesh.size[v], static_cast<float>(most));
   }

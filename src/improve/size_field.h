@@ -31,7 +31,7 @@ inline constexpr double kLeastSize = 0.01;
 /// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge
 /// turns the normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and
 /// growing by no more than kGrowth per A from there. Sizes of vertices outside the block are taken as they are.
-/// Cost: one sum over the atoms nearby for each vertex.
+/// Cost: one sum over the atoms nearby for each vertex whose curvature is not known.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 
 /// Asks for smaller triangles where neighbours turn by nearly 60 degrees against each other.

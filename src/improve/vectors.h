@@ -23,10 +23,18 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline Vec3 as_vector(const Normal& n) { return {double(n[0]), double(n[1]), double(n[2])}; }
 
-/// The nearest place that has whole units as coordinates, as the double that a reader of the decimals gets.
+/// The nearest place that has whole units as coordinates.
 inline CoordPoint to_units(const Vec3& p) {
   return {std::llround(p[0] * kUnitsPerAngstrom), std::llround(p[1] * kUnitsPerAngstrom),
           std::llround(p[2] * kUnitsPerAngstrom)};
+}
+
+/// The same as the double that a reader of the decimals gets. Halves go to even.
+inline Vec3 round_to_units(const Vec3& p) {
+  constexpr double kWhole = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves no place for a fraction
+  Vec3 result;
+  for (int k = 0; k < 3; ++k) result[k] = (p[k] * kUnitsPerAngstrom + kWhole - kWhole) / kUnitsPerAngstrom;
+  return result;
 }
 
 }  // namespace gaussmesh

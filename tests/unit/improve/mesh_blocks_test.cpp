@@ -18,6 +18,7 @@ WholeMesh ring_mesh() {
   mesh.at = traced.mesh.vertices;
   mesh.normal = traced.normals;
   mesh.size.assign(mesh.at.size(), 0.5f);
+  mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
   mesh.triangles = traced.mesh.triangles;
   return mesh;
