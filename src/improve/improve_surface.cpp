@@ -30,6 +30,11 @@ constexpr int kMostHalvings = 4;
 constexpr double kLeastAngle = 31.0;  // degrees; a little above what is promised
 constexpr int kRepairRounds = 3;
 
+/// How much smaller triangles become where neighbours turn too far: gently while all move, faster where little time
+/// is left.
+constexpr float kSmaller = 0.8f;
+constexpr float kSmallerAtLast = 0.65f;
+
 /// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that
 /// follow each other: a place near planes of all three axes in three of them is free in the fourth.
 struct Sweep {
@@ -70,7 +75,7 @@ bool activate_bad_places(BlockMesh& mesh) {
   constexpr int kRings = 4;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
-  std::vector<std::uint32_t> front = refine_sharp_edges(mesh);
+  std::vector<std::uint32_t> front = refine_sharp_edges(mesh, kSmallerAtLast);
   const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
   for (std::uint32_t t = 0; t < c.triangles(); ++t) {
     if (triangle_quality(mesh, t).min_sine >= least_sine) continue;
@@ -109,7 +114,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
     relax_vertices(mesh, guard, field, sweep.is_extra ? Accuracy::kExact : Accuracy::kRough);
   }
   if (sweep.is_exact && !sweep.is_extra) settle_vertices(mesh, field);
-  if (!sweep.is_extra) refine_sharp_edges(mesh);
+  if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
 }
 

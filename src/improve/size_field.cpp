@@ -63,9 +63,8 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   limit_growth(mesh);
 }
 
-std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
+std::vector<Index> refine_sharp_edges(BlockMesh& mesh, float factor) {
   constexpr double kSharp = 0.52;  // cosine of 58 degrees
-  constexpr float kSmaller = 0.8f;
   constexpr float kLeastRefinement = 0.4f;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<std::uint8_t> is_sharp(mesh.at.size(), 0);
@@ -83,7 +82,7 @@ std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
   std::vector<Index> sharp;
   for (Index v = 0; v < c.vertices(); ++v) {
     if (!is_sharp[v]) continue;
-    mesh.refinement[v] = std::max(kLeastRefinement, kSmaller * mesh.refinement[v]);
+    mesh.refinement[v] = std::max(kLeastRefinement, factor * mesh.refinement[v]);
     sharp.push_back(v);
   }
   return sharp;

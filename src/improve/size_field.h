@@ -34,8 +34,8 @@ inline constexpr double kLeastSize = 0.01;
 /// Cost: one sum over the atoms nearby for each vertex whose curvature is not known.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 
-/// Asks for smaller triangles where neighbours turn by nearly 60 degrees against each other.
+/// Asks for triangles smaller by `factor` where neighbours turn by nearly 60 degrees against each other.
 /// @return the vertices there
-std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh);
+std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh, float factor);
 
 }  // namespace gaussmesh
