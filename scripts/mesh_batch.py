@@ -8,7 +8,7 @@ behind `--` go to gaussmesh as they are. PDB and mmCIF files go through pdb2pqr,
 (--force-field), or get radii by name (--radii). A molecule that fails does not stop the others.
 
 A second run makes only what is missing, older than its molecule, or was made with other options; `--again` makes all
-anew. At the end, meshes/table.csv has a row for each molecule that there is a mesh of, and meshes/failures.tsv each that
+anew. After Ctrl-C no further molecule is begun. At the end, meshes/table.csv has a row for each molecule that there is a mesh of, and meshes/failures.tsv each that
 failed, with its reason.
 
 Exit code 0: all molecules have meshes. 1: some have not. 2: wrong use.
@@ -27,6 +27,10 @@ SUFFIXES = {".pqr", ".xyzr", ".pdb", ".ent", ".cif", ".mmcif"}
 NEED_RADII = {".pdb", ".ent", ".cif", ".mmcif"}
 COLUMNS = ["molecule", "atoms", "triangles", "vertices", "area_A2", "volume_A3", "components", "cavities", "genus",
            "min_angle_deg", "mean_min_angle_deg", "mean_edge_ratio", "time_s", "verdict"]
+
+
+class WrongUse(Exception):
+    """What is asked for makes no sense."""
 
 
 def kind(path):
@@ -50,7 +54,7 @@ def find_molecules(options):
     for path in files:
         other = molecules.setdefault(name_of(path), path)
         if other is not path:
-            sys.exit(f"mesh_batch.py: expected different names, got {other} and {path}")
+            raise WrongUse(f"expected different names, got {other} and {path}")
     return molecules
 
 
@@ -148,22 +152,34 @@ def parse_arguments(arguments):
     return options
 
 
-def main():
-    options = parse_arguments(sys.argv[1:])
-    molecules = find_molecules(options)
-    if not molecules:
-        print("mesh_batch.py: expected molecules, got none", file=sys.stderr)
-        return 2
-    options.output.mkdir(parents=True, exist_ok=True)
-    failures = {}
+def make_all(molecules, options):
+    """Makes all meshes; returns why molecules have none, by name. Those not begun when told to stop are among them."""
+    failures = {name: "not reached" for name in molecules}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         pending = {pool.submit(make_mesh, path, options): name for name, path in molecules.items()}
-        for number, future in enumerate(concurrent.futures.as_completed(pending), start=1):
-            name, reason = pending[future], future.result()
-            if reason:
+        try:
+            for number, future in enumerate(concurrent.futures.as_completed(pending), start=1):
+                name, reason = pending[future], future.result()
                 failures[name] = reason
-            print(f"[{number}/{len(molecules)}] {name}: {reason or 'good'}", file=sys.stderr)
-    write_tables(molecules, dict(sorted(failures.items())), options)
+                print(f"[{number}/{len(molecules)}] {name}: {reason or 'good'}", file=sys.stderr)
+        except KeyboardInterrupt:
+            print("stopped; what is under way comes to its end", file=sys.stderr)
+            pool.shutdown(wait=False, cancel_futures=True)
+    return {name: reason for name, reason in sorted(failures.items()) if reason}
+
+
+def main():
+    options = parse_arguments(sys.argv[1:])
+    try:
+        molecules = find_molecules(options)
+        if not molecules:
+            raise WrongUse("expected molecules, got none")
+    except (WrongUse, OSError) as error:
+        print(f"mesh_batch.py: {error}", file=sys.stderr)
+        return 2
+    options.output.mkdir(parents=True, exist_ok=True)
+    failures = make_all(molecules, options)
+    write_tables(molecules, failures, options)
     print(f"{len(molecules) - len(failures)} of {len(molecules)} molecules meshed; {options.output / 'table.csv'}"
           + (f", {options.output / 'failures.tsv'}" if failures else ""))
     return 1 if failures else 0

@@ -213,8 +213,9 @@ int run_mesh(const MeshCommand& command) {
   options.isovalue = surface.isovalue;
   options.measure_distance = !command.report.empty();
   MeshResult result = [&] {
-    ProgressBar bar(!command.quiet);
+    ProgressBar bar(!command.quiet, options.improve);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
+    options.on_improving = [&](double share_done) { bar.improving(share_done); };
     return mesh_surface(atoms, options);
   }();
   result.report.probe_radius = surface.reading.probe.value_or(0.0);

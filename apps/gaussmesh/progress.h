@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace gaussmesh::app {
 
@@ -15,7 +17,8 @@ namespace gaussmesh::app {
 class ProgressBar {
  public:
   /// @param is_wanted  false: no bar at all
-  explicit ProgressBar(bool is_wanted);
+  /// @param improves   whether there is a stage that improves the triangles
+  ProgressBar(bool is_wanted, bool improves);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -23,16 +26,31 @@ class ProgressBar {
   /// Takes note that a stage of mesh_surface() has ended.
   void stage_ended(const std::string& stage);
 
+  /// Takes note of the share of the improvement that is done. On any thread.
+  void improving(double share_done);
+
  private:
   void show_until_done();
-  void draw() const;
+  void draw();
 
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+
+  struct Stage {
+    std::string name;
+    double share = 0.0;  // of the whole work
+  };
+
+  double share_done() const;
+
+  std::vector<Stage> stages_;
+  std::size_t current_ = 0;  // stage that is under way
+  Clock::time_point start_ = Clock::now();
+  double part_ = 0.0;                // of that stage that is done, as told
+  double shown_ = 0.0;               // the bar never goes back
+  Clock::time_point last_ = start_;  // when something was told
   std::mutex mutex_;
   std::condition_variable wake_;
   bool is_done_ = false;
-  double share_ = 0.0;  // of the work, as far as the stages tell
-  std::string stage_;
   std::thread thread_;
 };
 

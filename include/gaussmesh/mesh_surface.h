@@ -26,6 +26,7 @@ struct MeshOptions {
   int threads = 0;                  ///< 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
+  std::function<void(double share_done)> on_improving;         ///< called often within the stage `improve`, on any thread
 };
 
 /// The spacing (A) that gives about this many vertices per A^2: equilateral triangles of edge s have 2 / (sqrt(3) s^2).

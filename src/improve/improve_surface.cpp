@@ -1,5 +1,6 @@
 #include "improve/improve_surface.h"
 
+#include <atomic>
 #include <numbers>
 
 #include "core/parallel.h"
@@ -47,6 +48,11 @@ constexpr Sweep kSweeps[] = {{3, false, false, false}, {3, false, false, false},
                              {2, true, true, false},   {1, true, true, true},    {1, true, true, true},
                              {1, true, true, true},    {1, true, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
+
+/// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
+constexpr double effort(const Sweep& sweep) {
+  return sweep.is_extra ? 0.2 : sweep.rounds * (&sweep == &kSweeps[0] ? 3 : 1);
+}
 
 WholeMesh start_with(SurfaceMesh traced, double spacing) {
   WholeMesh mesh;
@@ -132,24 +138,30 @@ SurfaceMesh finish(WholeMesh mesh) {
 }  // namespace
 
 SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                            Guarding guarding, int threads) {
+                            Guarding guarding, int threads,
+                            const std::function<void(double share_done)>& on_progress) {
   WholeMesh mesh = start_with(std::move(traced), targets.spacing);
   const double edge = kBlockEdge * targets.spacing;
   SizeTargets now = targets;
   now.largest = targets.spacing;
   int number = 0;
+  double all = 0.0, done = 0.0;
+  for (const Sweep& sweep : kSweeps) all += effort(sweep);
   const auto run = [&](const Sweep& sweep) {
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
     MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
+    std::atomic<int> blocks_done = 0;
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
       BlockMesh block = blocks.extract(b);
       improve_block(block, field, now, guarding, sweep);
       blocks.store(b, std::move(block));
+      if (on_progress) on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
     mesh = std::move(blocks).join(threads);
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
+    done += effort(sweep);
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);

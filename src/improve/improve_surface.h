@@ -1,6 +1,7 @@
 // Triangles that a solver can trust: the traced mesh, made over.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "field/gaussian_field.h"
@@ -31,9 +32,11 @@ enum class Guarding {
 ///
 /// @param traced   closed, oriented, embedded
 /// @param targets  spacing at most kLargestSpacing; `largest` is found here
+/// @param on_progress  called after each block, on any thread
 /// Cost: about ten sums over the atoms nearby for each vertex.
 SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                            Guarding guarding, int threads);
+                            Guarding guarding, int threads,
+                            const std::function<void(double share_done)>& on_progress = {});
 
 /// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for
 /// (core/exact_space.h).

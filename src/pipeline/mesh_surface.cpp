@@ -216,9 +216,10 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
 /// Improves a traced mesh; `result` gets it with the judge's verdict. @return whether it may be given out
 bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
              int threads, Stopwatch& watch, MeshResult& result) {
+  const auto& on_progress = result.report.options.on_improving;
   const std::int64_t chi = euler_number(traced);
   result.mesh = {};  // of an attempt before
-  SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads);
+  SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
   const bool same_topology = euler_number(improved) == chi;
   to_mesh(std::move(improved), result);
   watch.finished("improve");

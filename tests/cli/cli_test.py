@@ -444,7 +444,9 @@ class Running(CliTest):
         for arguments, is_long in [(["methanol"], False), (["fas2", "--spacing", "0.15", "--threads", "1"], True)]:
             mine, theirs = os.openpty()
             command = [settings.program, self.molecule(arguments[0]), *arguments[1:], "-o", self.mesh]
+            start = time.monotonic()
             subprocess.run(command, stdout=subprocess.DEVNULL, stderr=theirs, timeout=200, check=True)
+            is_long = is_long or time.monotonic() - start > 1.0  # on a machine that is busy
             os.close(theirs)
             drawn = b""
             try:

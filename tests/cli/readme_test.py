@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -83,6 +84,23 @@ class Batch(CliTest):
         self.assertTrue(all(new > old for new, old in zip(third, again)), "other options, other meshes")
 
 
+    def test_stops_when_told_to(self):
+        for i in range(8):
+            shutil.copy(self.molecule("dmso"), self.folder / f"m{i}.pqr")
+        command = ["/usr/bin/python3", settings.data.parent / "scripts" / "mesh_batch.py", *sorted(self.folder.glob("m*.pqr")),
+                   "--output", "out", "--program", settings.program, "--", "--spacing", "0.1"]
+        batch = subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        batch.stderr.readline()  # the first is made
+        batch.send_signal(signal.SIGINT)
+        said, _ = batch.communicate(timeout=100)
+        self.assertEqual(batch.returncode, 1)
+        self.assertRegex(said, "^[1-4] of 8 molecules meshed")
+        self.assertIn("m7.pqr\tnot reached", (self.folder / "out" / "failures.tsv").read_text())
+        wrong = self.batch("m0.pqr", "out/../m0.pqr", "--output", "out")
+        self.assertEqual(wrong.returncode, 2, wrong.stderr)
+        self.assertIn("expected different names", wrong.stderr)
+
+
 class Schema(CliTest):
     def test_reports_are_as_the_schema_says(self):
         schema = json.loads((settings.data / "report.schema.json").read_text())
@@ -94,6 +112,13 @@ class Schema(CliTest):
         for key in schema["required"]:
             self.assertFalse(validator.is_valid({k: v for k, v in report.items() if k != key}), key)
         self.assertEqual(set(report), set(schema["properties"]), "no key is without its description")
+        atom = "ATOM {0} C X 1 {1} 0.0 0.0 0.0 1.0\n"
+        self.write("touching.pqr", atom.format(1, "-1.5") + atom.format(2, "1.5"))
+        for arguments in [[self.molecule("fas2"), "--raw", "--cavities", "drop", "--spacing", 2],
+                          [self.molecule("dmso"), "--preset", "sas", "--tolerance", 0.05],
+                          ["touching.pqr", "--c", repr(2 * 0.4723665527410147), "--allow-uncertified"]]:  # its saddle
+            self.expect(0, *arguments, "-o", self.mesh, "--report", "r.json")
+            validator.validate(json.loads((self.folder / "r.json").read_text()))
 
 
 if __name__ == "__main__":
