@@ -15,11 +15,13 @@ namespace {
 class BrickTracer {
  public:
   BrickTracer(const GaussianField& field, const Lattice& lattice, const CellStore& store)
-      : field_(field), lattice_(lattice), store_(store), tracer_(field, lattice) {}
+      : lattice_(lattice), store_(store), tracer_(field, lattice), atoms_(field) {
+    tracer_.set_plain(true);
+  }
 
   TracedBrick trace(std::uint32_t brick_number) {
     TracedBrick result;
-    atoms_loaded_ = false;
+    move_to(brick_number);
     const Brick& brick = store_.bricks()[brick_number];
     result.counts.resize(brick.cells.size());
     for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
@@ -53,7 +55,6 @@ class BrickTracer {
     CoordPoint hi = lo;
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
-    load_atoms(place);
     const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.fold_axes[axis]);
     const auto base = static_cast<std::uint32_t>(result.points.size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
@@ -72,14 +73,11 @@ class BrickTracer {
     return other.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
   }
 
-  /// The atoms of the whole brick, when the first face needs some.
-  void load_atoms(const CellStore::Place& place) {
-    if (atoms_loaded_) return;
-    const FineIndex lo = brick_origin(store_.bricks()[place.brick].index);
+  void move_to(std::uint32_t brick) {
+    const FineIndex lo = brick_origin(store_.bricks()[brick].index);
     const std::int64_t size = kBrickCells * kFinePerCell;
-    field_.collect_near(lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size}), atoms_, kFineTruncation);
-    tracer_.take_atoms_from(atoms_, kProofTruncation);
-    atoms_loaded_ = true;
+    atoms_.move_to(lattice_box(lattice_, lo, {lo[0] + size, lo[1] + size, lo[2] + size}));
+    tracer_.take_atoms_from(atoms_);
   }
 
   void collect_roots(const CellStore::Place& place, int axis) {
@@ -99,12 +97,10 @@ class BrickTracer {
     for (const EdgeRoot& root : roots) roots_.push_back({vertex++, root.point.position, side, root.side});
   }
 
-  const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
   FaceTracer tracer_;
-  NearAtoms atoms_;
-  bool atoms_loaded_ = false;
+  LocalAtoms atoms_;   ///< near the brick
   std::vector<FaceRoot> roots_;
 };
 
@@ -199,16 +195,21 @@ class CellPatcher {
   FoldTriangulator fold_triangulator_;
 };
 
-std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split) {
-  std::vector<SurfacePoint> points = split.lattice_points();
-  for (const Brick& brick : store.bricks()) {
-    points.insert(points.end(), brick.face_points.begin(), brick.face_points.end());
-  }
+/// All vertices but those inside cells, by number.
+std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split, int threads) {
+  const std::vector<Brick>& bricks = store.bricks();
+  std::vector<SurfacePoint> points;
+  points.resize(bricks.empty() ? 0 : bricks.back().first_face_vertex + bricks.back().face_points.size());
+  const auto at = [&](std::uint32_t vertex) { return points.begin() + static_cast<std::ptrdiff_t>(vertex); };
+  parallel_for(bricks.size(), threads, [&](std::size_t i) {
+    const Brick& brick = bricks[i];
+    std::transform(brick.roots.begin(), brick.roots.end(), at(brick.first_vertex),
+                   [](const EdgeRoot& root) { return root.point; });
+    std::copy(brick.face_points.begin(), brick.face_points.end(), at(brick.first_face_vertex));
+  });
+  std::copy(split.points().begin(), split.points().end(), at(store.root_vertices()));
   return points;
 }
-
-/// Leaves that make one unit of parallel work.
-constexpr std::size_t kLeavesPerTask = 64;
 
 std::vector<std::uint32_t> flags_of(const Brick& brick) {
   std::vector<std::uint32_t> state;
@@ -219,10 +220,6 @@ std::vector<std::uint32_t> flags_of(const Brick& brick) {
     state.push_back(flags);
   }
   return state;
-}
-
-bool has_divided_faces(const Brick& brick) {
-  return std::any_of(brick.cells.begin(), brick.cells.end(), [](const SurfaceCell& c) { return c.divided_faces != 0; });
 }
 
 }  // namespace
@@ -262,21 +259,21 @@ void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
   }
 }
 
-bool CellTriangulator::must_be_redone(const LevelZeroTracer& faces, std::uint32_t brick) const {
+bool CellTriangulator::must_be_redone(const SplitLattice& split, const LevelZeroTracer& faces,
+                                      std::uint32_t brick) const {
   // The faces of a cell are its own low ones and those of the next cell along each axis.
-  const auto has_changed = [&](std::uint32_t b) { return faces.is_new(b) || has_divided_faces(store_.bricks()[b]); };
-  if (has_changed(brick)) return true;
+  if (faces.is_new(brick) || split.is_changed(brick)) return true;
   const BrickIndex index = store_.bricks()[brick].index;
   for (int axis = 0; axis < 3; ++axis) {
     BrickIndex next = index;
     ++next[axis];
-    if (const auto b = store_.find_brick(next); b && has_changed(*b)) return true;
+    if (const auto b = store_.find_brick(next); b && faces.is_new(*b)) return true;
   }
   return false;
 }
 
 void CellTriangulator::renumber_face_points(PatchedCells& cells) const {
-  const std::uint32_t first = store_.root_vertices();
+  const std::uint32_t first = face_vertices_.front();
   for (Triangle& t : cells.triangles) {
     for (std::uint32_t& v : t) {
       if (v < first || v >= kLocalVertex) continue;
@@ -290,27 +287,27 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
                                            const LevelZeroTracer& faces, int threads) {
   PatchOutcome outcome;
   std::vector<SurfacePoint>& points = outcome.surface.points;
-  points = collect_points(store_, split);
+  points = collect_points(store_, split, threads);
 
   const std::size_t bricks = store_.bricks().size();
-  const std::size_t leaf_tasks = (split.leaves().size() + kLeavesPerTask - 1) / kLeavesPerTask;
   const bool is_first = patched_.empty();
-  patched_.resize(bricks);
-  patched_.resize(bricks + leaf_tasks);
+  patched_.resize(bricks + split.cells().size());
   parallel_for_workers(patched_.size(), threads, 1, [&] {
     return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, points, least_corner_cosine_)](std::size_t task) mutable {
       PatchedCells& result = patched_[task];
       if (task < bricks) {
         const auto brick = static_cast<std::uint32_t>(task);
-        if (!is_first && result.failed.empty() && !must_be_redone(faces, brick)) return renumber_face_points(result);
+        const bool is_kept = !is_first && result.failed.empty() && !must_be_redone(split, faces, brick);
+        if (is_kept) return renumber_face_points(result);
         result = {};
         const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
         for (std::uint32_t i = 0; i < cells; ++i) patcher.patch_cell({brick, i}, result);
       } else {
+        // Smaller cells see no vertices inside faces of level 0: theirs keep their numbers.
+        const SplitCell& cell = split.cells()[task - bricks];
+        if (!is_first && !cell.is_changed) return;
         result = {};
-        const std::size_t first = (task - bricks) * kLeavesPerTask;
-        const std::size_t last = std::min(first + kLeavesPerTask, split.leaves().size());
-        for (std::size_t i = first; i < last; ++i) patcher.patch_leaf(split.leaves()[i], result);
+        for (const LeafCell& leaf : cell.leaves) patcher.patch_leaf(leaf, result);
       }
     };
   });
@@ -320,11 +317,21 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
     outcome.fold_cells += cells.fold_cells;
     outcome.failed.insert(outcome.failed.end(), cells.failed.begin(), cells.failed.end());
   }
-  if (outcome.failed.empty()) join(outcome.surface, threads);
+  if (outcome.failed.empty()) join(outcome.surface, split.dead_vertices(), threads);
   return outcome;
 }
 
-void CellTriangulator::join(SurfaceMesh& surface, int threads) {
+void CellTriangulator::join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) {
+  std::sort(dead_vertices.begin(), dead_vertices.end());
+  for (std::size_t i = 0; i < dead_vertices.size(); ++i) {
+    // The living ones from a dead one to the next move down by as many as are dead before them.
+    const auto from = surface.points.begin() + static_cast<std::ptrdiff_t>(dead_vertices[i]) + 1;
+    const auto to = i + 1 < dead_vertices.size()
+                        ? surface.points.begin() + static_cast<std::ptrdiff_t>(dead_vertices[i + 1])
+                        : surface.points.end();
+    std::copy(from, to, from - static_cast<std::ptrdiff_t>(i) - 1);
+  }
+  surface.points.resize(surface.points.size() - dead_vertices.size());
   std::vector<std::size_t> first_triangle{0}, first_point{surface.points.size()};
   for (const PatchedCells& cells : patched_) {
     first_triangle.push_back(first_triangle.back() + cells.triangles.size());
@@ -335,11 +342,13 @@ void CellTriangulator::join(SurfaceMesh& surface, int threads) {
   parallel_for(patched_.size(), threads, [&](std::size_t i) {
     PatchedCells& cells = patched_[i];
     const auto base = static_cast<std::uint32_t>(first_point[i]);
+    const auto numbered = [&](std::uint32_t v) {
+      if (v >= kLocalVertex) return base + (v - kLocalVertex);
+      const auto dead = std::lower_bound(dead_vertices.begin(), dead_vertices.end(), v);
+      return v - static_cast<std::uint32_t>(dead - dead_vertices.begin());
+    };
     std::size_t at = first_triangle[i];
-    for (Triangle t : cells.triangles) {
-      for (std::uint32_t& v : t) v = v >= kLocalVertex ? base + (v - kLocalVertex) : v;
-      surface.triangles[at++] = t;
-    }
+    for (const Triangle& t : cells.triangles) surface.triangles[at++] = {numbered(t[0]), numbered(t[1]), numbered(t[2])};
     std::copy(cells.points.begin(), cells.points.end(), surface.points.begin() + static_cast<std::ptrdiff_t>(base));
     cells = {};
   });

@@ -45,7 +45,7 @@ struct PatchOutcome {
   std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };
 
-/// Triangles of the cells of one brick, or of some leaves. Vertices inside cells are numbered from kLocalVertex on.
+/// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from kLocalVertex on.
 struct PatchedCells {
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;
@@ -67,15 +67,15 @@ class CellTriangulator {
                            int threads);
 
  private:
-  bool must_be_redone(const LevelZeroTracer& faces, std::uint32_t brick) const;
+  bool must_be_redone(const SplitLattice& split, const LevelZeroTracer& faces, std::uint32_t brick) const;
   void renumber_face_points(PatchedCells& cells) const;
-  void join(SurfaceMesh& surface, int threads);
+  void join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads);
 
   const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
   double least_corner_cosine_;
-  std::vector<PatchedCells> patched_;           ///< by brick, then leaves
+  std::vector<PatchedCells> patched_;           ///< by brick, then by split cell
   std::vector<std::uint32_t> face_vertices_;    ///< first_face_vertex of the bricks, as numbered in `patched_`
 };
 

@@ -145,11 +145,24 @@ class CellSurface {
   std::map<int, int> boundary_;             ///< links that are on the boundary of the cell
 };
 
+/// All vertices on edges and on faces of smaller cells, by number.
+std::vector<SurfacePoint> lattice_points(const CellStore& store, const SplitLattice& split) {
+  std::vector<SurfacePoint> points;
+  points.reserve(split.next_vertex());
+  for (const Brick& brick : store.bricks()) {
+    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
+  }
+  points.insert(points.end(), split.points().begin(), split.points().end());
+  return points;
+}
+
 class FoldSearch {
  public:
   FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split)
-      : lattice_(lattice), store_(store), split_(split), points_(split.lattice_points()) {
-    for (const LeafCell& leaf : split.leaves()) leaves_.emplace(leaf.key, &leaf);
+      : lattice_(lattice), store_(store), split_(split), points_(lattice_points(store, split)) {
+    for (const SplitCell& cell : split.cells()) {
+      for (const LeafCell& leaf : cell.leaves) leaves_.emplace(leaf.key, &leaf);
+    }
   }
 
   /// The largest cells in `key` that can keep their size.

@@ -4,7 +4,8 @@
 #include <bit>
 
 #include "core/parallel.h"
-#include "pipeline/cell_atoms.h"
+#include "field/local_atoms.h"
+#include "gaussmesh/error.h"
 
 namespace gaussmesh {
 namespace {
@@ -18,8 +19,22 @@ std::int64_t round_down(std::int64_t n, std::int64_t size) {
   return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
 }
 
-/// Edges or faces that a thread takes at a time.
-constexpr int kChunk = 32;
+/// Down to this level cells are not smaller than the parts that proofs look at in cells of level 0, and take as
+/// many atoms; in smaller ones, near singular places, atoms left out may decide.
+constexpr int kLastPlainLevel = 3;
+
+/// Edges or faces that a thread takes at a time, near one cell.
+constexpr std::uint32_t kTaskSize = 64;
+
+Reach proof_reach(int level) { return level <= kLastPlainLevel ? Reach::kProof : Reach::kFine; }
+Reach root_reach(int level) { return level <= kLastPlainLevel ? Reach::kPlain : Reach::kFine; }
+
+/// The cell of a lower level that contains a cell.
+CellKey cell_around(const CellKey& cell, int level) {
+  CellKey result{{}, level};
+  for (int k = 0; k < 3; ++k) result.lo[k] = round_down(cell.lo[k], fine_size(level));
+  return result;
+}
 
 /// Axes along which the components of a cell are cut.
 unsigned fold_axes_of(const FoldCell& cell) {
@@ -31,43 +46,110 @@ unsigned fold_axes_of(const FoldCell& cell) {
 }  // namespace
 
 SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                           const FoldCellMap& folds, const CellSet& forced, int threads)
+                           const FoldCellMap& folds, int threads)
     : field_(field), lattice_(lattice), store_(store), folds_(folds) {
-  std::vector<CellKey> roots;
+  std::vector<CellKey> uncertified;
   for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
     std::vector<SurfaceCell>& cells = store.bricks()[b].cells;
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      const CellKey key{store.lowest_corner({b, i}), 0};
+      cells[i].split = false;
       cells[i].divided_faces = 0;
-      cells[i].fold_axes = {};
-      cells[i].split = forced.contains(key) || (cells[i].sign == 0 && !folds.contains(key));
-      if (cells[i].split) roots.push_back(key);
+      if (cells[i].sign != 0) continue;
+      const CellKey key{store.lowest_corner({b, i}), 0};
+      if (!folds.contains(key)) uncertified.push_back(key);
     }
   }
-  std::vector<Branch> branches(roots.size());
-  parallel_for(roots.size(), threads, [&](std::size_t i) {
-    CellProver prover(field_.decay(), kProofDepth);
-    NearAtoms atoms;
-    field_.collect_near(cell_box(lattice_, roots[i]), atoms, kFineTruncation);
-    split(roots[i], atoms, forced, prover, branches[i]);
-  });
-  for (const Branch& branch : branches) {
-    leaves_.insert(leaves_.end(), branch.leaves.begin(), branch.leaves.end());
-    split_.insert(branch.split.begin(), branch.split.end());
-    uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
-  }
-  mark_level_zero(roots);
-  if (uncertified_.empty()) find_edge_roots(threads);
+  split(uncertified, threads);
 }
 
-void SplitLattice::mark_level_zero(const std::vector<CellKey>& roots) {
-  for (const CellKey& key : roots) {
+void SplitLattice::split(const std::vector<CellKey>& cells, int threads) {
+  std::vector<Branch> branches(cells.size());
+  parallel_for_workers(cells.size(), threads, 1, [&] {
+    return
+        [&, prover = CellProver(field_.decay(), kProofDepth), atoms = LocalAtoms(field_)](std::size_t i) mutable {
+          atoms.move_to(cell_box(lattice_, cells[i]));
+          split_one(cells[i], atoms, prover, branches[i]);
+        };
+  });
+  for (SplitCell& cell : cells_) cell.is_changed = false;
+  changed_bricks_.assign(store_.bricks().size(), false);
+  const std::size_t first_cell = cells_.size();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Branch& branch = branches[i];
+    take_from_leaves(cells[i]);
+    for (const CellKey& key : branch.split) {
+      split_.insert(key);
+      cell_of_.push_back(static_cast<std::uint32_t>(cells_.size()));
+      drop_faces(key);
+    }
+    uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
+    cells_.push_back({cells[i], std::move(branch.leaves), true});
+  }
+  for (const Branch& branch : branches) {
+    for (const CellKey& key : branch.split) mark_changed_beside(key);
+  }
+  mark_level_zero();
+  if (!uncertified_.empty()) return;
+  find_edge_roots(first_cell, threads);
+  trace_faces(first_cell, threads);
+}
+
+void SplitLattice::take_from_leaves(const CellKey& key) {
+  if (key.level == 0) {
+    store_.cell(*store_.find(key.lo)).split = true;
+    return;
+  }
+  SplitCell& parent = cells_[cell_of_[*split_.find(cell_around(key, key.level - 1))]];
+  std::erase_if(parent.leaves, [&](const LeafCell& leaf) { return leaf.key == key; });
+  parent.is_changed = true;
+}
+
+/// Smaller cells take the faces of a split one over.
+void SplitLattice::drop_faces(const CellKey& key) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::int64_t by : {std::int64_t{0}, fine_size(key.level)}) {
+      const auto face = faces_.find(lattice_key(moved(key.lo, axis, by), axis, key.level));
+      if (!face) continue;
+      FaceLinks& links = face_links_[*face];
+      for (std::uint32_t i = 0; i < links.point_count; ++i)
+        dead_vertices_.push_back(first_vertex() + links.first_point + i);
+      links = {};
+    }
+  }
+}
+
+/// The cells that share faces with a split one see its curves, unless they are smaller.
+void SplitLattice::mark_changed_beside(const CellKey& key) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::int64_t by : {-fine_size(key.level), fine_size(key.level)}) {
+      const CellKey beside{moved(key.lo, axis, by), key.level};
+      if (split_.contains(beside)) continue;
+      std::optional<std::uint32_t> around;
+      for (int level = key.level - 1; level >= 0 && !around; --level)
+        around = split_.find(cell_around(beside, level));
+      if (around) {
+        cells_[cell_of_[*around]].is_changed = true;
+      } else if (const auto place = store_.find(cell_around(beside, 0).lo)) {
+        changed_bricks_[place->brick] = true;
+      }
+    }
+  }
+  if (key.level == 0) changed_bricks_[store_.find(key.lo)->brick] = true;
+}
+
+void SplitLattice::mark_level_zero() {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CellKey& key = cells_[i].key;
+    if (key.level > 0) continue;
     const auto place = store_.find(key.lo);
     store_.cell(*place).divided_faces = 7;
     for (int axis = 0; axis < 3; ++axis) {
       const auto next = store_.find(moved(key.lo, axis, kFinePerCell), place->brick);
       if (next) store_.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
     }
+  }
+  for (Brick& brick : store_.bricks()) {
+    for (SurfaceCell& cell : brick.cells) cell.fold_axes = {};
   }
   for (const auto& [key, cell] : folds_) {
     if (key.level > 0 || split_.contains(key)) continue;
@@ -83,11 +165,11 @@ void SplitLattice::mark_level_zero(const std::vector<CellKey>& roots) {
 
 unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
   unsigned axes = 0;
+  if (folds_.empty()) return axes;
   for (const std::int64_t by : {std::int64_t{0}, -fine_size(face.level)}) {
-    const FineIndex beside = moved(face.lo, face.axis, by);
+    const CellKey beside{moved(face.lo, face.axis, by), face.level};
     for (int level = 0; level <= face.level; ++level) {
-      CellKey key{{}, level};
-      for (int k = 0; k < 3; ++k) key.lo[k] = round_down(beside[k], fine_size(level));
+      const CellKey key = cell_around(beside, level);
       const auto it = folds_.find(key);
       if (it != folds_.end() && !split_.contains(key)) axes |= fold_axes_of(it->second);
     }
@@ -95,33 +177,23 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
   return axes;
 }
 
-std::vector<SurfacePoint> SplitLattice::lattice_points() const {
-  std::vector<SurfacePoint> points;
-  points.reserve(next_vertex());
-  for (const Brick& brick : store_.bricks()) {
-    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
-  }
-  points.insert(points.end(), points_.begin(), points_.end());
-  return points;
-}
-
-void SplitLattice::split(const CellKey& key, const NearAtoms& around, const CellSet& forced, CellProver& prover,
-                         Branch& branch) const {
+void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const {
   branch.split.push_back(key);
-  NearAtoms atoms;
-  atoms.restrict_from(around, cell_box(lattice_, key), field_.decay(), kFineTruncation);
   for (int c = 0; c < 8; ++c) {
     const CellKey child = child_cell(key, c);
     const Box box = cell_box(lattice_, child);
-    const CellCertificate certificate = prover.certify(atoms, LocalModel(atoms, field_.decay(), box));
+    const NearAtoms& near = around.within(proof_reach(child.level));
+    const CellCertificate certificate = prover.certify(near, LocalModel(near, field_.decay(), box));
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
-    if (certified && !forced.contains(child)) {
+    if (certified) {
       branch.leaves.push_back({child, certificate.axis, certificate.sign});
-    } else if (!certified && !forced.contains(child) && folds_.contains(child)) {
+    } else if (folds_.contains(child)) {
       branch.leaves.push_back({child, 0, 0});
     } else if (child.level < kMaxLevel) {
-      split(child, atoms, forced, prover, branch);
+      LocalAtoms atoms(field_);
+      atoms.move_to(box, &around);
+      split_one(child, atoms, prover, branch);
     } else {
       Vec3 middle;
       for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (box.lo[k] + box.hi[k]);
@@ -133,129 +205,160 @@ void SplitLattice::split(const CellKey& key, const NearAtoms& around, const Cell
 
 SplitLattice::LatticeKey SplitLattice::whole_edge(int axis, const FineIndex& lo) const {
   const int level = std::max(level_of_plane(lo[first_axis(axis)]), level_of_plane(lo[second_axis(axis)]));
-  FineIndex start = lo;
-  start[axis] = round_down(lo[axis], fine_size(level));
-  return {start, axis, level};
+  return lattice_key(moved(lo, axis, round_down(lo[axis], fine_size(level)) - lo[axis]), axis, level);
 }
 
-void SplitLattice::find_edge_roots(int threads) {
-  for (const LeafCell& leaf : leaves_) {
-    const std::int64_t size = fine_size(leaf.key.level);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int corner = 0; corner < 4; ++corner) {
-        FineIndex lo = leaf.key.lo;
-        lo[first_axis(axis)] += (corner & 1) * size;
-        lo[second_axis(axis)] += (corner >> 1) * size;
-        const LatticeKey edge = whole_edge(axis, lo);
-        if (edge.level > 0) edges_.push_back(edge);
+void SplitLattice::find_edge_roots(std::size_t first_cell, int threads) {
+  std::vector<Task> tasks;
+  for (std::size_t c = first_cell; c < cells_.size(); ++c) {
+    const std::size_t first_edge = edges_.size();
+    for (const LeafCell& leaf : cells_[c].leaves) {
+      const std::int64_t size = fine_size(leaf.key.level);
+      for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+          const FineIndex lo = moved(moved(leaf.key.lo, first_axis(axis), (corner & 1) * size), second_axis(axis),
+                                     (corner >> 1) * size);
+          const LatticeKey edge = whole_edge(axis, lo);
+          if (edge.level == 0) continue;
+          const auto [number, is_new] = edges_.insert(edge);
+          if (is_new) edge_roots_.emplace_back();
+          if (edge.level == leaf.key.level && leaf.sign != 0 && leaf.axis == axis)
+            edge_roots_[number].is_monotone = true;
+        }
       }
     }
+    add_tasks(c, first_edge, edges_.size(), tasks);
   }
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-
-  std::vector<std::vector<EdgeRoot>> found(edges_.size());
-  parallel_for_workers(edges_.size(), threads, kChunk, [&] {
-    return [&, cells = CellAtoms(field_, lattice_), finder = EdgeRootFinder(field_, lattice_),
-            atoms = NearAtoms()](std::size_t i) mutable {
-      const LatticeKey& edge = edges_[i];
-      const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
-      const Box box = lattice_box(lattice_, edge.lo, end);
-      atoms.restrict_from(cells.around(edge.lo), box, field_.decay(), kFineTruncation);
-      const auto roots = finder.find(atoms, LocalModel(atoms, field_.decay(), box), edge.axis, lattice_.point(edge.lo),
-                                     lattice_.plane(edge.axis, end[edge.axis]));
-      found[i].assign(roots.begin(), roots.end());
+  const std::size_t first_edge = tasks.empty() ? edges_.size() : tasks.front().first;
+  std::vector<std::vector<EdgeRoot>> found(edges_.size() - first_edge);
+  parallel_for_workers(tasks.size(), threads, 1, [&] {
+    return [&, atoms = LocalAtoms(field_), finder = EdgeRootFinder(field_, lattice_)](std::size_t t) mutable {
+      atoms.move_to(cell_box(lattice_, cells_[tasks[t].cell].key));
+      for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
+        const LatticeKey& edge = edges_[i];
+        const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
+        const LocalModel model(atoms.within(proof_reach(edge.level)), field_.decay(),
+                               lattice_box(lattice_, edge.lo, end));
+        const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
+                                       lattice_.point(edge.lo), lattice_.plane(edge.axis, end[edge.axis]),
+                                       {Side::kUnknown, Side::kUnknown, edge_roots_[i].is_monotone});
+        found[i - first_edge].assign(roots.begin(), roots.end());
+      }
     };
   });
-  edge_roots_.resize(edges_.size());
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    for (const EdgeRoot& root : found[i]) {
-      const auto vertex = first_vertex() + static_cast<std::uint32_t>(points_.size());
-      edge_roots_[i].push_back({vertex, root.point.position, root.side});
+  for (std::size_t i = first_edge; i < edges_.size(); ++i) {
+    const std::vector<EdgeRoot>& roots = found[i - first_edge];
+    if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
+    edge_roots_[i].first = static_cast<std::uint32_t>(points_.size());
+    edge_roots_[i].count = static_cast<std::uint8_t>(roots.size());
+    for (const EdgeRoot& root : roots) {
       points_.push_back(root.point);
+      rises_.push_back(root.side);
     }
   }
 }
 
-std::vector<VertexRoot> SplitLattice::roots_on(int axis, const FineIndex& lo, int level) const {
+void SplitLattice::add_roots_on(int axis, const FineIndex& lo, int level, int side,
+                                std::vector<FaceRoot>& roots) const {
   const Coord from = lattice_.plane(axis, lo[axis]), to = lattice_.plane(axis, lo[axis] + fine_size(level));
-  std::vector<VertexRoot> result;
-  const auto keep = [&](const VertexRoot& root) {
-    if (root.position[axis] > from && root.position[axis] < to) result.push_back(root);
+  const auto add = [&](std::uint32_t vertex, const CoordPoint& position, int rise) {
+    if (position[axis] > from && position[axis] < to) roots.push_back({vertex, position, side, rise});
   };
   const LatticeKey edge = whole_edge(axis, lo);
   if (edge.level == 0) {
-    if (const auto place = store_.find(edge.lo)) {
-      std::uint32_t vertex = store_.first_vertex(*place, axis);
-      for (const EdgeRoot& root : store_.edge_roots(*place, axis)) keep({vertex++, root.point.position, root.side});
-    }
-  } else {
-    const auto it = std::lower_bound(edges_.begin(), edges_.end(), edge);
-    if (it != edges_.end() && *it == edge) {
-      for (const VertexRoot& root : edge_roots_[it - edges_.begin()]) keep(root);
+    const auto place = store_.find(edge.lo);
+    if (!place) return;
+    std::uint32_t vertex = store_.first_vertex(*place, axis);
+    for (const EdgeRoot& root : store_.edge_roots(*place, axis)) add(vertex++, root.point.position, root.side);
+  } else if (const auto number = edges_.find(edge)) {
+    const EdgeRoots& found = edge_roots_[*number];
+    for (std::uint32_t i = found.first; i < found.first + found.count; ++i) {
+      add(first_vertex() + i, points_[i].position, rises_[i]);
     }
   }
-  return result;
 }
 
-std::vector<FaceRoot> SplitLattice::face_roots(const LatticeKey& face) const {
+void SplitLattice::collect_face_roots(const LatticeKey& face, std::vector<FaceRoot>& roots) const {
   const int a = first_axis(face.axis), b = second_axis(face.axis);
   const std::int64_t size = fine_size(face.level);
-  std::vector<FaceRoot> result;
-  const auto add = [&](int axis, const FineIndex& lo, int side) {
-    for (const VertexRoot& root : roots_on(axis, lo, face.level)) {
-      result.push_back({root.vertex, root.position, side, root.rise});
-    }
-  };
-  add(a, face.lo, 0);
-  add(b, moved(face.lo, a, size), 1);
-  add(a, moved(face.lo, b, size), 2);
-  add(b, face.lo, 3);
-  return result;
+  roots.clear();
+  add_roots_on(a, face.lo, face.level, 0, roots);
+  add_roots_on(b, moved(face.lo, a, size), face.level, 1, roots);
+  add_roots_on(a, moved(face.lo, b, size), face.level, 2, roots);
+  add_roots_on(b, face.lo, face.level, 3, roots);
 }
 
 bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
   return split_.contains({lo, level}) || split_.contains({moved(lo, axis, -fine_size(level)), level});
 }
 
-void SplitLattice::trace_faces(int threads) {
-  for (const LeafCell& leaf : leaves_) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
-        const FineIndex lo = moved(leaf.key.lo, axis, by);
-        if (!is_divided(axis, lo, leaf.key.level)) faces_.push_back({lo, axis, leaf.key.level});
+void SplitLattice::trace_faces(std::size_t first_cell, int threads) {
+  std::vector<Task> tasks;
+  for (std::size_t c = first_cell; c < cells_.size(); ++c) {
+    const std::size_t first_face = faces_.size();
+    for (const LeafCell& leaf : cells_[c].leaves) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
+          const FineIndex lo = moved(leaf.key.lo, axis, by);
+          if (is_divided(axis, lo, leaf.key.level)) continue;
+          const auto [number, is_new] = faces_.insert(lattice_key(lo, axis, leaf.key.level));
+          if (is_new) face_links_.emplace_back();
+          // The surface in a leaf is single-valued along its axis, and so is its section with a face that has the
+          // axis in it.
+          if (leaf.sign != 0 && leaf.axis != axis) {
+            face_links_[number].certificate = leaf.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
+          }
+        }
       }
     }
+    add_tasks(c, first_face, faces_.size(), tasks);
   }
-  std::sort(faces_.begin(), faces_.end());
-  faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-
-  std::vector<FaceCurves> curves(faces_.size());
-  parallel_for_workers(faces_.size(), threads, kChunk, [&] {
-    return [&, cells = CellAtoms(field_, lattice_), tracer = FaceTracer(field_, lattice_)](std::size_t i) mutable {
-      const LatticeKey& face = faces_[i];
-      const std::int64_t size = fine_size(face.level);
-      const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
-      const std::vector<FaceRoot> roots = face_roots(face);
-      tracer.take_atoms_from(cells.around(face.lo), kFineTruncation);
-      curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), kFaceUncertified, roots,
-                               fold_axes(face));
+  const std::size_t first_face = tasks.empty() ? faces_.size() : tasks.front().first;
+  std::vector<FaceCurves> curves(faces_.size() - first_face);
+  parallel_for_workers(tasks.size(), threads, 1, [&] {
+    return [&, atoms = LocalAtoms(field_), tracer = FaceTracer(field_, lattice_),
+            roots = std::vector<FaceRoot>()](std::size_t t) mutable {
+      atoms.move_to(cell_box(lattice_, cells_[tasks[t].cell].key));
+      tracer.take_atoms_from(atoms);
+      for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
+        const LatticeKey& face = faces_[i];
+        const std::int64_t size = fine_size(face.level);
+        const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
+        collect_face_roots(face, roots);
+        tracer.set_plain(face.level <= kLastPlainLevel);
+        curves[i - first_face] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end),
+                                              face_links_[i].certificate, roots, fold_axes(face));
+      }
     };
   });
-  face_links_.resize(faces_.size());
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const std::uint32_t base = first_vertex() + static_cast<std::uint32_t>(points_.size());
-    const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + (v - kLocalVertex) : v; };
-    for (const Link& link : curves[i].links) face_links_[i].push_back({numbered(link.from), numbered(link.to)});
-    points_.insert(points_.end(), curves[i].points.begin(), curves[i].points.end());
+  for (std::size_t i = first_face; i < faces_.size(); ++i) {
+    const FaceCurves& found = curves[i - first_face];
+    FaceLinks& face = face_links_[i];
+    face.first_link = static_cast<std::uint32_t>(links_.size());
+    face.link_count = static_cast<std::uint32_t>(found.links.size());
+    face.first_point = static_cast<std::uint32_t>(points_.size());
+    face.point_count = static_cast<std::uint32_t>(found.points.size());
+    const auto numbered = [&](std::uint32_t v) {
+      return v >= kLocalVertex ? first_vertex() + face.first_point + (v - kLocalVertex) : v;
+    };
+    for (const Link& link : found.links) links_.push_back({numbered(link.from), numbered(link.to)});
+    points_.insert(points_.end(), found.points.begin(), found.points.end());
+    rises_.resize(points_.size(), 0);
+  }
+}
+
+void SplitLattice::add_tasks(std::size_t cell, std::size_t first, std::size_t last, std::vector<Task>& tasks) {
+  for (auto i = static_cast<std::uint32_t>(first); i < last; i += kTaskSize) {
+    tasks.push_back(
+        {static_cast<std::uint32_t>(cell), i, std::min(i + kTaskSize, static_cast<std::uint32_t>(last))});
   }
 }
 
 std::span<const Link> SplitLattice::face_links(int axis, const FineIndex& lo, int level) const {
-  const LatticeKey key{lo, axis, level};
-  const auto it = std::lower_bound(faces_.begin(), faces_.end(), key);
-  if (it == faces_.end() || *it != key) return {};
-  return face_links_[it - faces_.begin()];
+  const auto number = faces_.find(lattice_key(lo, axis, level));
+  if (!number) return {};
+  const FaceLinks& face = face_links_[*number];
+  return {links_.data() + face.first_link, face.link_count};
 }
 
 }  // namespace gaussmesh

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
+#include "core/key_index.h"
 #include "patch/fold_triangulator.h"
 #include "pipeline/cell_store.h"
 
@@ -16,8 +16,6 @@ struct UncertifiedPlace {
   double size = 0.0;
 };
 
-using CellSet = std::unordered_set<CellKey, CellKeyHash>;
-
 /// Cells of any size that keep their size without a certificate, and what is cut along folds in them.
 using FoldCellMap = std::unordered_map<CellKey, FoldCell, CellKeyHash>;
 
@@ -25,73 +23,121 @@ using FoldCellMap = std::unordered_map<CellKey, FoldCell, CellKeyHash>;
 struct LeafCell {
   CellKey key;
   int axis = 0;
-  int sign = 0;      ///< 0: cut along folds
+  int sign = 0;  ///< 0: cut along folds
+};
+
+/// A cell that was split, and the smaller cells that are left of it.
+struct SplitCell {
+  CellKey key;
+  std::vector<LeafCell> leaves;  ///< without those that were split in their turn, later
+  bool is_changed = true;        ///< the last call of split() changed the leaves or the curves round them
 };
 
 /// Cells below level 0, the roots on their edges and the curves on their faces.
 ///
-/// An edge is known by the longest lattice edge of its line: its roots are found once, on that one, and shared by all
-/// cells that see a part of it. A face between cells of different size is that of the smaller ones.
+/// An edge is known by the longest lattice edge of its line: its roots are found once, on that one, and shared by
+/// all cells that see a part of it. A face between cells of different size is that of the smaller ones. Cells are
+/// split in rounds: what was found in one is kept in the next, with the numbers of its vertices.
 class SplitLattice {
  public:
-  /// Splits every cell that has no certificate and is not in `folds`, and the cells of `forced`; marks them, and the
-  /// faces that smaller cells take over or that need fold points, in `store`.
+  /// Splits every cell that has no certificate and is not in `folds`.
   SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const FoldCellMap& folds,
-               const CellSet& forced, int threads);
+               int threads);
 
-  const std::vector<LeafCell>& leaves() const { return leaves_; }
+  /// Splits cells that are of level 0 or leaves, each as often as it needs; marks them, and the faces that smaller
+  /// cells take over or that need fold points, in the store. Finds the roots and curves of the new leaves, unless
+  /// there are uncertified places.
+  void split(const std::vector<CellKey>& cells, int threads);
+
+  const std::vector<SplitCell>& cells() const { return cells_; }
   std::size_t split_cells() const { return split_.size(); }
   const std::vector<UncertifiedPlace>& uncertified() const { return uncertified_; }
   bool is_split(const CellKey& key) const { return split_.contains(key); }
 
+  /// Whether the last call of split() changed curves round unsplit cells of level 0 in a brick.
+  bool is_changed(std::uint32_t brick) const { return changed_bricks_[brick]; }
+
   /// Number of the first vertex that is neither a root of level 0 nor of these cells.
   std::uint32_t next_vertex() const { return first_vertex() + static_cast<std::uint32_t>(points_.size()); }
 
-  /// All vertices below next_vertex().
-  std::vector<SurfacePoint> lattice_points() const;
+  /// The vertices from the last root of level 0 up to next_vertex().
+  const std::vector<SurfacePoint>& points() const { return points_; }
 
-  /// Finds the curves on the faces of the leaves. Vertices are numbered from `first_vertex` on.
-  void trace_faces(int threads);
+  /// Vertices inside faces that smaller cells have taken over since: nothing names them any more.
+  const std::vector<std::uint32_t>& dead_vertices() const { return dead_vertices_; }
 
   bool is_divided(int axis, const FineIndex& lo, int level) const;
   std::span<const Link> face_links(int axis, const FineIndex& lo, int level) const;
 
  private:
-  std::uint32_t first_vertex() const { return store_.root_vertices(); }
-
-  struct LatticeKey {   ///< of an edge along `axis`, or of a face across it
+  struct LatticeKey {  ///< of an edge along `axis`, or of a face across it
     FineIndex lo{};
-    int axis = 0;
-    int level = 0;
-    auto operator<=>(const LatticeKey&) const = default;
+    std::int8_t axis = 0;
+    std::int8_t level = 0;
+    bool operator==(const LatticeKey&) const = default;
+  };
+  struct LatticeKeyHash {
+    std::size_t operator()(const LatticeKey& key) const {
+      return CellKeyHash{}({key.lo, 4 * key.level + key.axis});
+    }
   };
   struct Branch {
     std::vector<LeafCell> leaves;
     std::vector<CellKey> split;
     std::vector<UncertifiedPlace> uncertified;
   };
+  struct EdgeRoots {
+    std::uint32_t first = 0;  ///< index into points_
+    std::uint8_t count = 0;
+    bool is_monotone = false;
+  };
+  struct FaceLinks {
+    std::uint32_t first_link = 0;
+    std::uint32_t first_point = 0;  ///< index into points_
+    std::uint32_t link_count = 0;
+    std::uint32_t point_count = 0;
+    FaceCertificate certificate = kFaceUncertified;
+  };
+  /// Edges or faces with numbers first .. last - 1, of the leaves in one split cell.
+  struct Task {
+    std::uint32_t cell = 0;
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+  };
 
-  void split(const CellKey& key, const NearAtoms& around, const CellSet& forced, CellProver& prover,
-             Branch& branch) const;
-  void mark_level_zero(const std::vector<CellKey>& roots);
+  std::uint32_t first_vertex() const { return store_.root_vertices(); }
+  static LatticeKey lattice_key(const FineIndex& lo, int axis, int level) {
+    return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
+  }
+  static void add_tasks(std::size_t cell, std::size_t first, std::size_t last, std::vector<Task>& tasks);
+  void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
+  void take_from_leaves(const CellKey& key);
+  void drop_faces(const CellKey& key);
+  void mark_changed_beside(const CellKey& key);
+  void mark_level_zero();
   unsigned fold_axes(const LatticeKey& face) const;
-  void find_edge_roots(int threads);
+  void find_edge_roots(std::size_t first_cell, int threads);
+  void trace_faces(std::size_t first_cell, int threads);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
-  std::vector<VertexRoot> roots_on(int axis, const FineIndex& lo, int level) const;
-  std::vector<FaceRoot> face_roots(const LatticeKey& face) const;
+  void add_roots_on(int axis, const FineIndex& lo, int level, int side, std::vector<FaceRoot>& roots) const;
+  void collect_face_roots(const LatticeKey& face, std::vector<FaceRoot>& roots) const;
 
   const GaussianField& field_;
   const Lattice& lattice_;
   CellStore& store_;
   const FoldCellMap& folds_;
-  CellSet split_;
-  std::vector<LeafCell> leaves_;
+  std::vector<SplitCell> cells_;
+  KeyIndex<CellKey, CellKeyHash> split_;
+  std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
-  std::vector<LatticeKey> edges_;                ///< sorted
-  std::vector<std::vector<VertexRoot>> edge_roots_;
-  std::vector<LatticeKey> faces_;                ///< sorted
-  std::vector<std::vector<Link>> face_links_;
-  std::vector<SurfacePoint> points_;             ///< vertices that smaller cells add
+  std::vector<bool> changed_bricks_;
+  KeyIndex<LatticeKey, LatticeKeyHash> edges_, faces_;
+  std::vector<EdgeRoots> edge_roots_;  ///< by number of the edge
+  std::vector<FaceLinks> face_links_;  ///< by number of the face
+  std::vector<Link> links_;
+  std::vector<SurfacePoint> points_;  ///< vertices that smaller cells add
+  std::vector<std::int8_t> rises_;    ///< by point: EdgeRoot::side of a root
+  std::vector<std::uint32_t> dead_vertices_;
 };
 
 }  // namespace gaussmesh

@@ -39,8 +39,10 @@ void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult&
 
 /// The proof looked at cells at least as small as the leaves.
 void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult& result) {
-  for (const LeafCell& leaf : split.leaves()) {
-    result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
+  for (const SplitCell& cell : split.cells()) {
+    for (const LeafCell& leaf : cell.leaves) {
+      result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
+    }
   }
 }
 
@@ -53,27 +55,24 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
   FoldCellMap folds;
   if (store.uncertified_cells() > 0) {
     const FoldCellMap none;
-    SplitLattice proof(field, lattice, store, none, {}, threads);
+    const SplitLattice proof(field, lattice, store, none, threads);
     note_leaves(proof, lattice, result);
     if (!proof.uncertified().empty()) {
       result.uncertified = proof.uncertified();
       return result;
     }
-    proof.trace_faces(threads);
     folds = find_fold_cells(lattice, store, proof, threads);
     finished("folds");
   }
   LevelZeroTracer faces(field, lattice, store);
   CellTriangulator cells(field, lattice, store, least_corner_cosine);
-  CellSet forced;
+  SplitLattice split(field, lattice, store, folds, threads);
   for (int round = 0; round < kMaxRounds; ++round) {
-    SplitLattice split(field, lattice, store, folds, forced, threads);
     note_leaves(split, lattice, result);
     if (!split.uncertified().empty()) {
       result.uncertified = split.uncertified();
       return result;
     }
-    split.trace_faces(threads);
     faces.trace(split.next_vertex(), threads);
     finished("curves");
     PatchOutcome outcome = cells.triangulate(split, folds, faces, threads);
@@ -86,8 +85,8 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     }
     for (const CellKey& cell : outcome.failed) {
       if (cell.level == kMaxLevel) throw LatticeDegenerate(to_angstrom(lattice.point(cell.lo)));
-      forced.insert(cell);
     }
+    split.split(outcome.failed, threads);
   }
   throw InternalError("cells were split again and again without an embedded triangulation");
 }

@@ -13,6 +13,9 @@ namespace {
 /// A rectangle is not cut below this (units): ten times the distance at which roots are told apart.
 constexpr Coord kSmallestRect = 100;
 
+/// In parts of a face that are smaller than this fraction of it, atoms left out may decide.
+constexpr Coord kPlainParts = 8;
+
 /// How often a rectangle is halved in search of an axis before it is cut.
 constexpr int kProofHalvings = 3;
 
@@ -37,36 +40,16 @@ PlanePoint FaceTracer::plane(int point) const {
   return {p[first_axis(axis_)], p[second_axis(axis_)]};
 }
 
-void FaceTracer::load_atoms() {
-  if (atoms_loaded_) return;
-  collect_atoms(atoms_, kFineTruncation);
-  atoms_loaded_ = true;
-}
-
-const NearAtoms& FaceTracer::proof_atoms_of(const Rect& rect) {
-  // Parts of a face can be so small that atoms left out decide.
-  if (proof_cut_ == kFineTruncation || rect.lo != face_.lo || rect.hi != face_.hi) {
-    load_atoms();
-    return atoms_;
-  }
-  collect_atoms(proof_atoms_, proof_cut_);
-  return proof_atoms_;
-}
-
-void FaceTracer::collect_atoms(NearAtoms& atoms, double cut) const {
-  const Box box{to_angstrom(face_.lo), to_angstrom(face_.hi)};
-  if (parent_) {
-    atoms.restrict_from(*parent_, box, field_.decay(), cut);
-  } else {
-    field_.collect_near(box, atoms, cut);
-  }
+bool FaceTracer::is_plain(const Rect& rect) const {
+  const int a = first_axis(axis_);
+  return is_plain_ && (rect.hi[a] - rect.lo[a]) * kPlainParts >= face_.hi[a] - face_.lo[a];
 }
 
 const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
                                     std::span<const FaceRoot> roots, unsigned fold_axes) {
   axis_ = axis;
   face_ = {lo, hi};
-  atoms_loaded_ = false;
+  atoms_.move_to({to_angstrom(lo), to_angstrom(hi)}, around_);
   points_.clear();
   pieces_.clear();
   chains_.clear();
@@ -173,14 +156,14 @@ bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& 
   return true;
 }
 
-std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(int edge_axis, const CoordPoint& lo, Coord hi) {
+std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo,
+                                                        Coord hi) {
   CoordPoint end = lo;
   end[edge_axis] = hi;
   const Box box{to_angstrom(lo), to_angstrom(end)};
-  load_atoms();
-  const LocalModel model(atoms_, field_.decay(), box);
+  const LocalModel model(atoms, field_.decay(), box);
   std::vector<RectRoot> result;
-  for (const EdgeRoot& root : finder_.find(atoms_, model, edge_axis, lo, hi)) {
+  for (const EdgeRoot& root : finder_.find(atoms, model, edge_axis, lo, hi)) {
     result.push_back({static_cast<int>(points_.size()), 0});
     points_.push_back({root.point, kLocalVertex, root.side, false, -1, -1});
   }
@@ -199,8 +182,9 @@ void FaceTracer::split_rect(const Rect& rect, const std::vector<RectRoot>& roots
   CoordPoint low_a = centre, low_b = centre;
   low_a[a] = rect.lo[a];
   low_b[b] = rect.lo[b];
-  const std::vector<RectRoot> left = cut_roots(a, low_a, ma), right = cut_roots(a, centre, rect.hi[a]);
-  const std::vector<RectRoot> below = cut_roots(b, low_b, mb), above = cut_roots(b, centre, rect.hi[b]);
+  const NearAtoms& atoms = root_atoms_of(rect);
+  const std::vector<RectRoot> left = cut_roots(atoms, a, low_a, ma), right = cut_roots(atoms, a, centre, rect.hi[a]);
+  const std::vector<RectRoot> below = cut_roots(atoms, b, low_b, mb), above = cut_roots(atoms, b, centre, rect.hi[b]);
 
   for (int part = 0; part < 4; ++part) {
     const bool high_a = part & 1, high_b = part & 2;
@@ -219,7 +203,8 @@ void FaceTracer::split_rect(const Rect& rect, const std::vector<RectRoot>& roots
     for (RectRoot root : high_a ? right : left) sub_roots.push_back({root.point, high_b ? 0 : 2});
     for (RectRoot root : high_b ? above : below) sub_roots.push_back({root.point, high_a ? 3 : 1});
     const Box box{to_angstrom(sub.lo), to_angstrom(sub.hi)};
-    trace_rect(sub, certify_face(LocalModel(atoms_, field_.decay(), box), axis_, box), std::move(sub_roots));
+    const LocalModel model(proof_atoms_of(sub), field_.decay(), box);
+    trace_rect(sub, certify_face(model, axis_, box), std::move(sub_roots));
   }
 }
 
@@ -287,10 +272,10 @@ void FaceTracer::choose_points(const Chain& chain) {
 }
 
 void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
-  load_atoms();
+  const NearAtoms& atoms = root_atoms_of(face_);
   for (int p = chain.first; p >= 0;) {
     if (points_[p].vertex != kLocalVertex) {
-      const PointValue value = evaluate(atoms_, field_.decay(), to_angstrom(points_[p].point.position));
+      const PointValue value = evaluate(atoms, field_.decay(), to_angstrom(points_[p].point.position));
       points_[p].point.normal = outward_normal(value.gradient);
     }
     const int next = points_[p].next;
@@ -334,7 +319,7 @@ void FaceTracer::insert_fold_points(int from, int axis) {
 }
 
 SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
-  load_atoms();
+  const NearAtoms& atoms = root_atoms_of(piece.rect);
   const int along = piece.along;
   const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
   SurfacePoint result;
@@ -343,10 +328,10 @@ SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
                                             piece.rect.hi[over] - 1);
   Vec3 start = to_angstrom(result.position), end = start;
   end[along] = to_angstrom(piece.rect.hi[along]);
-  const LocalModel model(atoms_, field_.decay(), {start, end});
-  const bool inside_lo = is_inside(field_, atoms_, model, start);
-  if (inside_lo == is_inside(field_, atoms_, model, end)) throw LatticeDegenerate(start);
-  const LineRoot root = refine_root(atoms_, field_.decay(), start, along, start[along], end[along], inside_lo,
+  const LocalModel model(atoms, field_.decay(), {start, end});
+  const bool inside_lo = is_inside(field_, atoms, model, start);
+  if (inside_lo == is_inside(field_, atoms, model, end)) throw LatticeDegenerate(start);
+  const LineRoot root = refine_root(atoms, field_.decay(), start, along, start[along], end[along], inside_lo,
                                     0.5 * (start[along] + end[along]));
   result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom),
                                              piece.rect.lo[along] + 1, piece.rect.hi[along] - 1);

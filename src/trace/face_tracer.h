@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/exact_plane.h"
-#include "field/gaussian_field.h"
+#include "field/local_atoms.h"
 #include "roots/edge_roots.h"
 
 namespace gaussmesh {
@@ -30,10 +30,11 @@ FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face)
 
 /// A root on the boundary of a face.
 struct FaceRoot {
-  std::uint32_t vertex = 0;   ///< its number in the mesh
+  std::uint32_t vertex = 0;  ///< its number in the mesh
   CoordPoint position{};
-  int boundary_side = 0;      ///< 0..3 counter-clockwise seen against the axis: low second, high first, high second, low first
-  int rise = 0;               ///< +1: the edge enters the molecule as its coordinate grows
+  int boundary_side =
+      0;         ///< 0..3 counter-clockwise seen against the axis: low second, high first, high second, low first
+  int rise = 0;  ///< +1: the edge enters the molecule as its coordinate grows
 };
 
 /// A piece of a curve, from vertex to vertex, with the molecule on its left seen against the face's axis.
@@ -48,7 +49,7 @@ inline constexpr std::uint32_t kLocalVertex = 0x80000000u;
 /// Curves of a face: links between roots, through `points` where a chord would not do.
 struct FaceCurves {
   std::vector<Link> links;
-  std::vector<SurfacePoint> points;   ///< vertex numbers kLocalVertex + index
+  std::vector<SurfacePoint> points;  ///< vertex numbers kLocalVertex + index
 };
 
 /// Follows the section curves of a face from root to root [CL11].
@@ -62,18 +63,19 @@ struct FaceCurves {
 class FaceTracer {
  public:
   FaceTracer(const GaussianField& field, const Lattice& lattice)
-      : field_(field), finder_(field, lattice) {}
+      : field_(field), finder_(field, lattice), atoms_(field) {}
 
-  /// Atoms for the faces to come are taken from `parent`, collected with kFineTruncation for a box round them, which lives
-  /// as long as they are traced, and not from the field. Certificates of whole faces are sought with atoms down to
-  /// e^-proof_cut.
-  void take_atoms_from(const NearAtoms& parent, double proof_cut) {
-    parent_ = &parent;
-    proof_cut_ = proof_cut;
-  }
+  /// Atoms for the faces to come are taken from those of `around`, a box round them, and not from the field; it
+  /// lives and stays where it is as long as they are traced.
+  void take_atoms_from(LocalAtoms& around) { around_ = &around; }
+
+  /// In the faces to come atoms beyond Reach::kProof and kPlain do not matter (or do, which is so at first): they
+  /// are not much smaller than the parts that proofs of whole cells look at.
+  void set_plain(bool is_plain) { is_plain_ = is_plain; }
 
   /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`
-  /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of axis k
+  /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of
+  /// axis k
   /// @throws LatticeDegenerate where roots and curves do not fit together to rounding
   const FaceCurves& trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
                           std::span<const FaceRoot> roots, unsigned fold_axes = 0);
@@ -81,18 +83,18 @@ class FaceTracer {
  private:
   struct TracePoint {
     SurfacePoint point;
-    std::uint32_t vertex = 0;   ///< kLocalVertex for a point inside the face
+    std::uint32_t vertex = 0;  ///< kLocalVertex for a point inside the face
     int rise = 0;
     bool kept = false;
-    int next = -1;              ///< index into points_
-    int piece = -1;             ///< piece that leads to `next`
+    int next = -1;   ///< index into points_
+    int piece = -1;  ///< piece that leads to `next`
   };
   struct Rect {
     CoordPoint lo, hi;
   };
   struct Piece {
     Rect rect;
-    int along = 0;              ///< axis along which the section is single-valued in rect
+    int along = 0;  ///< axis along which the section is single-valued in rect
   };
   struct RectRoot {
     int point;
@@ -107,7 +109,7 @@ class FaceTracer {
   bool pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots);
   bool prove_along(const NearAtoms& atoms, const Box& rect, int along, int sign, int depth) const;
   void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
-  std::vector<RectRoot> cut_roots(int edge_axis, const CoordPoint& lo, Coord hi);
+  std::vector<RectRoot> cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
   void choose_points(const Chain& chain);
   void keep_fold_points(const Chain& chain, int axis);
@@ -119,19 +121,22 @@ class FaceTracer {
   bool polygons_cross() const;
   void refine_all();
   void emit();
-  void load_atoms();
-  const NearAtoms& proof_atoms_of(const Rect& rect);
-  void collect_atoms(NearAtoms& atoms, double cut) const;
+  bool is_plain(const Rect& rect) const;
+  const NearAtoms& proof_atoms_of(const Rect& rect) {
+    return atoms_.within(is_plain(rect) ? Reach::kProof : Reach::kFine);
+  }
+  const NearAtoms& root_atoms_of(const Rect& rect) {
+    return atoms_.within(is_plain(rect) ? Reach::kPlain : Reach::kFine);
+  }
   PlanePoint plane(int point) const;
   int length_of(const Chain& chain) const;
   bool starts_curve(const RectRoot& root) const;
 
   const GaussianField& field_;
   EdgeRootFinder finder_;
-  NearAtoms atoms_, proof_atoms_;
-  const NearAtoms* parent_ = nullptr;
-  double proof_cut_ = kFineTruncation;
-  bool atoms_loaded_ = false;
+  LocalAtoms atoms_;  ///< near the face
+  LocalAtoms* around_ = nullptr;
+  bool is_plain_ = false;
   int axis_ = 0;
   Rect face_;
   std::vector<TracePoint> points_;
