@@ -1,15 +1,15 @@
 #include "write/whole_file.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <mutex>
+#include <random>
+#include <string>
 #include <utility>
 
 #include "gaussmesh/error.h"
@@ -25,6 +25,14 @@ bool is_written_in_place(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+std::string random_letters() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  std::random_device random;
+  std::string text(6, ' ');
+  for (char& c : text) c = kLetters[random() % kLetters.size()];
+  return text;
 }
 
 }  // namespace
@@ -68,14 +76,25 @@ WholeFile::~WholeFile() {
 
 void WholeFile::make_temporary() {
   static std::mutex list_mutex;
-  auto entry = std::make_unique<Unfinished>();
-  entry->path = target_.string() + ".XXXXXX";
   const std::lock_guard lock(list_mutex);
-  descriptor_ = ::mkostemp(entry->path.data(), O_CLOEXEC);
-  if (descriptor_ < 0) fail("cannot be created");
-  temporary_ = entry.release();
+  temporary_ = new Unfinished;
   temporary_->next = unfinished_;
   unfinished_ = temporary_;
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
+    temporary_->path = target_.string() + "." + random_letters();
+    // Known before it is there: a signal at any moment from here on finds it.
+    temporary_->is_there = true;
+    descriptor_ = ::open(temporary_->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (descriptor_ < 0) {
+      temporary_->is_there = false;
+      if (errno != EEXIST) break;
+    }
+  }
+  if (descriptor_ < 0) {
+    temporary_ = nullptr;
+    fail("cannot be created");
+  }
 }
 
 void WholeFile::fail(const char* what) const {
@@ -94,7 +113,7 @@ void WholeFile::write(std::string_view text) {
 void WholeFile::close() {
   if (descriptor_ < 0) return;
   if (temporary_ != nullptr) {
-    // mkostemp makes files that only their owner reads; give the ones that any new file would get.
+    // So far only its owner reads it; give it the permissions that any new file would get.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot be given its permissions");

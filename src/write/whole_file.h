@@ -40,7 +40,7 @@ class WholeFile {
   /// A temporary file, in a list that only grows: a signal may come at any time, on any thread.
   struct Unfinished {
     std::string path;
-    std::atomic<bool> is_there{true};
+    std::atomic<bool> is_there{false};  // or about to be
     Unfinished* next = nullptr;
   };
   friend bool remove_unfinished_files() noexcept;
