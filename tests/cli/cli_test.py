@@ -95,18 +95,18 @@ class Structures(CliTest):
         self.write("ubq.pdb", self.pdb())
         volumes = {}
         for radii in ["bondi", "amber", "charmm"]:
-            self.expect(0, "ubq.pdb", "--radii", radii, "--spacing", 1, "-o", self.mesh, "--report", "r.json")
+            self.expect(0, "ubq.pdb", "--radii", radii, "--raw", "--spacing", 1, "-o", self.mesh, "--report", "r.json")
             volumes[radii] = json.loads((self.folder / "r.json").read_text())["volume_A3"]
             self.expect(0, "check", self.mesh, "ubq.pdb", "--radii", radii, "--d", 0.6, "--c", 1.7)
-        self.expect(0, self.molecule("1ubq"), "--spacing", 1, "-o", self.mesh, "--report", "r.json")
+        self.expect(0, self.molecule("1ubq"), "--raw", "--spacing", 1, "-o", self.mesh, "--report", "r.json")
         from_pqr = json.loads((self.folder / "r.json").read_text())["volume_A3"]
         self.assertAlmostEqual(volumes["amber"] / from_pqr, 1.0, delta=1e-3)  # the ends of the chain differ
         self.assertEqual(len(set(volumes.values())), 3)
 
     def test_from_standard_input_and_gzip(self):
         self.write("ubq.pdb.gz", gzip.compress(self.pdb().encode()))
-        self.expect(0, "ubq.pdb.gz", "--radii", "bondi", "--spacing", 1, "-o", self.mesh)
-        piped = self.expect(0, "-", "--input-format", "pdb", "--radii", "bondi", "--spacing", 1, "-o", "-",
+        self.expect(0, "ubq.pdb.gz", "--radii", "bondi", "--raw", "--spacing", 1, "-o", self.mesh)
+        piped = self.expect(0, "-", "--input-format", "pdb", "--radii", "bondi", "--raw", "--spacing", 1, "-o", "-",
                             stdin=self.pdb())
         self.assertEqual(piped.stdout, self.mesh.read_text())
 
@@ -318,25 +318,25 @@ class Surfaces(CliTest):
 
     def test_cavities(self):
         shell = self.shell()
-        kept = self.report(shell)
+        kept = self.report(shell, "--spacing", 1)
         self.assertEqual(self.kinds(kept), ["outside", "cavity", "outside"])
         self.assertEqual(kept["left_out"]["components"], 0)
         self.expect(0, "check", self.mesh)
         cavity, ball = -kept["components"][1]["volume_A3"], kept["components"][2]["volume_A3"]
         for options in [["--cavities", "drop"], ["--min-cavity-volume", cavity + 1]]:
             with self.subTest(options):
-                dropped = self.report(shell, *options)
+                dropped = self.report(shell, "--spacing", 1, *options)
                 self.assertEqual(self.kinds(dropped), ["outside"])
                 self.assertEqual(dropped["left_out"]["components"], 2, "the ball goes with the hole that it is in")
                 self.assertAlmostEqual(dropped["left_out"]["volume_A3"], cavity - ball, places=6)
                 self.assertAlmostEqual(dropped["volume_A3"], kept["components"][0]["volume_A3"], places=6)
                 self.expect(0, "check", self.mesh)
-        self.assertEqual(self.kinds(self.report(shell, "--min-cavity-volume", cavity - 1)), self.kinds(kept))
+        self.assertEqual(self.kinds(self.report(shell, "--spacing", 1, "--min-cavity-volume", cavity - 1)), self.kinds(kept))
 
     def test_separate_surfaces(self):
-        kept = self.report(self.shell())
+        kept = self.report(self.shell(), "--spacing", 1)
         self.mesh.unlink()
-        self.expect(0, "shell.pqr", "--cavities", "separate", "-o", self.mesh, "-o", "s.ply")
+        self.expect(0, "shell.pqr", "--spacing", 1, "--cavities", "separate", "-o", self.mesh, "-o", "s.ply")
         self.assertEqual(self.files(), [*(f"out_{i}.off" for i in (1, 2, 3)), "r.json",
                                         *(f"s_{i}.ply" for i in (1, 2, 3)), "shell.pqr"])
         volumes = []
@@ -441,7 +441,7 @@ class Running(CliTest):
         self.expect(0, "check", self.mesh)
 
     def test_a_bar_on_a_terminal_for_long_runs_only(self):
-        for arguments, is_long in [(["methanol"], False), (["fas2", "--spacing", "0.15", "--threads", "1"], True)]:
+        for arguments, is_long in [(["methanol"], False), (["fas2", "--spacing", "0.2", "--threads", "1"], True)]:
             mine, theirs = os.openpty()
             command = [settings.program, self.molecule(arguments[0]), *arguments[1:], "-o", self.mesh]
             start = time.monotonic()
