@@ -1,4 +1,5 @@
-# Installs a build of gaussmesh to a fresh folder, then configures, builds and runs the consumer project against it.
+# Installs a build of gaussmesh to a fresh folder, then configures, builds and runs two projects against it: the
+# consumer, and the example of the README as it stands there.
 #
 #   cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... -D CONFIG=... -D COMPILER=... -P run.cmake
 file(REMOVE_RECURSE "${WORK_DIR}")
@@ -10,10 +11,26 @@ function(run)
   endif()
 endfunction()
 
-run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix" --config "${CONFIG}")
-run("${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${WORK_DIR}/build" "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
-    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_CXX_COMPILER=${COMPILER}")
-run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build" --config "${CONFIG}")
+# Builds the project in `source` and runs its program with the other arguments.
+function(build_and_run name source)
+  run("${CMAKE_COMMAND}" -S "${source}" -B "${WORK_DIR}/${name}" "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
+      "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_CXX_COMPILER=${COMPILER}")
+  run("${CMAKE_COMMAND}" --build "${WORK_DIR}/${name}" --config "${CONFIG}")
+  find_program(${name} ${name} PATHS "${WORK_DIR}/${name}" "${WORK_DIR}/${name}/${CONFIG}" NO_DEFAULT_PATH REQUIRED)
+  run("${${name}}" ${ARGN})
+endfunction()
 
-find_program(consumer consumer PATHS "${WORK_DIR}/build" "${WORK_DIR}/build/${CONFIG}" NO_DEFAULT_PATH REQUIRED)
-run("${consumer}")
+# Writes the first block of that language in the README to a file of the example.
+function(write_block language file)
+  file(READ "${SOURCE_DIR}/../../README.md" readme)
+  if(NOT readme MATCHES "```${language}\n([^`]*)```")
+    message(FATAL_ERROR "no block of ${language} in README.md")
+  endif()
+  file(WRITE "${WORK_DIR}/readme/${file}" "${CMAKE_MATCH_1}")
+endfunction()
+
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix" --config "${CONFIG}")
+build_and_run(consumer "${SOURCE_DIR}")
+write_block(cmake CMakeLists.txt)
+write_block(cpp main.cpp)
+build_and_run(example "${WORK_DIR}/readme" "${SOURCE_DIR}/../../data/methanol.pqr" "${WORK_DIR}/example/mesh.vtp")
