@@ -10,7 +10,8 @@ take turns, so that what else the machine does meets all alike. CPU time is user
 reading and writing included; ratios and speed-ups are taken within each turn, and the median over the turns is given.
 Peak memory is the largest resident set.
 
-The output folder gets benchmark.tsv, benchmark.md and, where Matplotlib is there, benchmark.svg.
+The output folder gets benchmark.tsv, benchmark.md and, where Matplotlib is there, benchmark.svg; they grow with each
+molecule and spacing that is done.
 
 Exit code 0: done. 1: a program failed. 2: wrong use.
 """
@@ -73,7 +74,7 @@ def take_turns(molecule, spacing, folder, options):
     results = {}
     for turn in range(options.runs):
         for kind, command in commands(molecule, spacing, mesh, options).items():
-            for threads in (1,) if kind == REFERENCE else (1, 2):
+            for threads in (1,) if kind == REFERENCE or turn >= options.two_thread_runs else (1, 2):
                 cpu_s, wall_s, peak = run(command(threads), threads)
                 results.setdefault((kind, threads), []).append((count_triangles(mesh), cpu_s, wall_s, peak))
         print(f"  turn {turn + 1} of {options.runs} done", file=sys.stderr)
@@ -176,6 +177,7 @@ def parse_arguments():
     parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the table and the plot")
     parser.add_argument("--spacings", type=float, nargs="+", default=[0.5, 0.3], help="A (default: 0.5 0.3)")
     parser.add_argument("--runs", type=int, default=5, help="turns (default: 5)")
+    parser.add_argument("--two-thread-runs", type=int, help="turns in which two threads run too (default: all)")
     parser.add_argument("--decay", type=float, default=0.6, help="1/A^2 (default: 0.6)")
     parser.add_argument("--isovalue", type=float, default=1.7, help="default: 1.7")
     options = parser.parse_args()
@@ -184,6 +186,8 @@ def parse_arguments():
     for path in (*options.molecules, options.program, *([options.reference] if options.reference else [])):
         if not path.is_file():
             parser.error(f"{path}: no such file")
+    if options.two_thread_runs is None:
+        options.two_thread_runs = options.runs
     options.program = options.program.resolve()
     options.reference = options.reference and options.reference.resolve()
     return options
@@ -201,7 +205,8 @@ def plain_copy(molecule, folder):
 
 def main():
     options = parse_arguments()
-    rows = []
+    options.output.mkdir(parents=True, exist_ok=True)
+    rows, facts = [], describe_run(options)
     with tempfile.TemporaryDirectory(prefix="gaussmesh_benchmark_") as name:
         folder = pathlib.Path(name)
         for path in options.molecules:
@@ -209,8 +214,7 @@ def main():
             for spacing in options.spacings:
                 print(f"{molecule.stem} at {spacing:g} A", file=sys.stderr)
                 rows += rows_of(molecule.stem, spacing, take_turns(molecule, spacing, folder, options))
-    options.output.mkdir(parents=True, exist_ok=True)
-    write_table(rows, describe_run(options), options.output)
+                write_table(rows, facts, options.output)
     try:
         draw(rows, options.output / "benchmark.svg")
     except ImportError:

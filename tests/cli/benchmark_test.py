@@ -50,19 +50,20 @@ class Benchmark(CliTest):
 
     def test_compares_with_a_reference(self):
         self.write("reference", REFERENCE).chmod(0o755)
-        result = self.measure(self.molecule("methanol"), "--reference", "reference")
+        result = self.measure(self.molecule("methanol"), "--reference", "reference", "--two-thread-runs", 0)
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = self.rows()
         self.assertEqual([row["mesh"] for row in rows], ["reference", "raw", "default"])
         self.assertEqual(rows[0]["triangles"], "2")
         self.assertEqual(rows[0]["times_reference"], "1.00")
         for row in rows[1:]:
+            self.assertEqual(row["two_thread_speed_up"], "")
             ratio = float(row["cpu_us_per_triangle"]) / float(rows[0]["cpu_us_per_triangle"])
             self.assertAlmostEqual(float(row["times_reference"]), ratio, delta=0.01 * ratio + 0.01)
 
     def test_names_the_program_that_fails(self):
         self.write("bad.pqr", "ATOM 1 C X 1 0 0 0 0 x\n")
-        result = self.measure("bad.pqr")
+        result = self.measure("bad.pqr", "--two-thread-runs", 0)
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, r"bad.pqr.*exit 3: .*bad.pqr:1: ")
         self.assertEqual(self.measure("none.pqr").returncode, 2)
