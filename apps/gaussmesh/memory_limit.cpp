@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <malloc.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -187,8 +188,14 @@ namespace gaussmesh::app {
 
 void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   std::string name = (folder / "gaussmesh.XXXXXX").string();
+  // No signal ends the program while the file has a name.
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, &before);
   spool.file = ::mkostemp(name.data(), O_CLOEXEC);
-  if (spool.file < 0 || ::unlink(name.c_str()) != 0) fail(folder);
+  const bool is_made = spool.file >= 0 && ::unlink(name.c_str()) == 0;
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (!is_made) fail(folder);
   void* const base = ::mmap(nullptr, kSpan, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, spool.file, 0);
   if (base == MAP_FAILED) fail(folder);
   spool.statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);

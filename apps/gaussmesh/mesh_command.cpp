@@ -79,7 +79,8 @@ std::string numbered(const std::string& output, std::size_t number) {
 /// Writes all meshes and the report, all of them or none; returns the name of the first.
 std::string write_all(const MeshCommand& command, const Product& product) {
   const auto& [surface, report] = product;
-  const WriteOptions writing = writing_options(command.writing, command.no_header);
+  WriteOptions writing = writing_options(command.writing, command.no_header);
+  writing.threads = command.options.threads;
   OutputFiles files;
   std::string first = command.outputs.front();
   if (command.cavities == "separate") {

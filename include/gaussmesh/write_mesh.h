@@ -29,6 +29,7 @@ const std::vector<MeshFormat>& mesh_formats();
 struct WriteOptions {
   std::string format;       ///< a name of mesh_formats(); empty: the extension decides, OFF for standard output
   bool msms_header = true;  ///< the three lines in front of MSMS vertices and faces
+  int threads = 0;          ///< 0: as many as there are processors
 };
 
 /// Several files that appear together: each is written beside its place, and commit() renames them all. What is not

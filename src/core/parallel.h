@@ -13,6 +13,18 @@ namespace gaussmesh {
 /// How many threads a user's wish means: 0 is one for each processor.
 inline int thread_count(int wish) { return wish > 0 ? wish : omp_get_num_procs(); }
 
+/// What OpenMP takes as the number of threads where nothing else is said, as long as this lives.
+class DefaultThreads {
+ public:
+  explicit DefaultThreads(int threads) : before_(omp_get_max_threads()) { omp_set_num_threads(threads); }
+  DefaultThreads(const DefaultThreads&) = delete;
+  DefaultThreads& operator=(const DefaultThreads&) = delete;
+  ~DefaultThreads() { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+};
+
 /// Calls worker(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
 /// Each thread has a worker of its own from make_worker(), which keeps buffers from slot to slot, and takes `chunk` slots
 /// at a time. When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.

@@ -34,19 +34,6 @@ void give_back_memory() {
 #endif
 }
 
-/// The judge knows nothing of options: it takes as many threads as OpenMP says. That is what was asked for, until this
-/// ends.
-class JudgeThreads {
- public:
-  explicit JudgeThreads(int threads) : before_(omp_get_max_threads()) { omp_set_num_threads(threads); }
-  JudgeThreads(const JudgeThreads&) = delete;
-  JudgeThreads& operator=(const JudgeThreads&) = delete;
-  ~JudgeThreads() { omp_set_num_threads(before_); }
-
- private:
-  int before_;
-};
-
 /// Measures the stages one after the other.
 class Stopwatch {
  public:
@@ -235,7 +222,7 @@ double spacing_for_density(double vertices_per_A2) { return std::sqrt(2.0 / (std
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_options(atoms, options);
   const int threads = thread_count(options.threads);
-  const JudgeThreads judge_threads(threads);
+  const DefaultThreads judge_threads(threads);  // the judge knows nothing of options
   MeshResult result;
   MeshReport& report = result.report;
   report.atoms = atoms.size();

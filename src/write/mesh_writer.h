@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -28,17 +29,32 @@ struct MeshView {
 
 /// Writes `count` records: put(p, i) writes record i at p, at most `longest` bytes, and returns its end.
 ///
-/// On one thread: formatting costs little more than handing the bytes to the system does.
+/// put() is called on as many threads as OpenMP takes, which is nothing that it notices; blocks of records are
+/// written in their order.
 template <class Put>
 void write_records(WholeFile& file, std::size_t count, std::size_t longest, const Put& put) {
   constexpr std::size_t kBlock = 8192;  // records: as many as stay in the cache until they are written
-  std::string buffer(std::min(kBlock, count) * longest, '\0');
-  for (std::size_t begin = 0; begin < count; begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, count);
-    char* p = buffer.data();
-    for (std::size_t i = begin; i < end; ++i) p = put(p, i);
-    file.write({buffer.data(), static_cast<std::size_t>(p - buffer.data())});
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  std::exception_ptr error;
+#pragma omp parallel if (blocks > 1)
+  {
+    std::string buffer(std::min(kBlock, count) * longest, '\0');
+#pragma omp for ordered schedule(dynamic, 1)
+    for (std::size_t block = 0; block < blocks; ++block) {
+      const std::size_t end = std::min((block + 1) * kBlock, count);
+      char* p = buffer.data();
+      for (std::size_t i = block * kBlock; i < end; ++i) p = put(p, i);
+#pragma omp ordered
+      {
+        try {
+          if (!error) file.write({buffer.data(), static_cast<std::size_t>(p - buffer.data())});
+        } catch (...) {
+          error = std::current_exception();
+        }
+      }
+    }
   }
+  if (error) std::rethrow_exception(error);
 }
 
 /// Writes numbers with `separator` between them and `end` behind the last.

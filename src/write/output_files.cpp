@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "core/parallel.h"
 #include "gaussmesh/write_mesh.h"
 #include "write/mesh_formats.h"
 
@@ -17,6 +18,7 @@ OutputFiles& OutputFiles::operator=(OutputFiles&&) noexcept = default;
 void OutputFiles::add_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
                            const WriteOptions& options) {
   const MeshView view{mesh, data, options.msms_header};
+  const DefaultThreads threads(thread_count(options.threads));
   for (const FormatPart& part : find_format(path, options).parts) {
     if (part.write == nullptr) continue;
     WholeFile file(part_path(path, part));

@@ -50,6 +50,31 @@ TEST_CASE("what is read back has the same bits") {
   CHECK(back.triangles == mesh.triangles);
 }
 
+TEST_CASE("records are in their order for any number of threads, and an error on one of them is thrown") {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < 50000; ++i) {
+    mesh.vertices.push_back({i * 1e-3, 0.0, 1.0});
+    mesh.triangles.push_back({i, i / 2, i / 3});
+  }
+  const Folder folder;
+  for (const char* name : {"m.off", "m.obj", "m.stl", "m.vtp"}) {
+    CAPTURE(name);
+    WriteOptions options;
+    options.threads = 1;
+    write_mesh(mesh, {}, folder / name, options);
+    const std::string expected = read_file(folder / name);
+    for (const int threads : {2, 5, 0}) {
+      options.threads = threads;
+      write_mesh(mesh, {}, folder / name, options);
+      CHECK(read_file(folder / name) == expected);
+    }
+  }
+  WriteOptions options;
+  options.format = "off";
+  options.threads = 3;
+  CHECK_THROWS_AS(write_mesh(mesh, {}, "/dev/full", options), InputError);
+}
+
 TEST_CASE("small negative coordinates keep their sign; there is no minus before zero") {
   const Folder folder;
   write_mesh({{{-1e-9, -0.0, 0.999999999}, {-0.5, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}, folder / "n.off");
