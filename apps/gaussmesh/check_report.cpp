@@ -15,8 +15,10 @@ struct Defect {
   std::size_t count;
 };
 
-/// Components that are turned the wrong way: outsides (odd = 0), or cavities (odd = 1).
+/// Components that are turned the wrong way: outsides (odd = 0), or cavities (odd = 1). None where a surface is not
+/// closed: the cavities in it would be taken for outsides.
 std::size_t count_inverted(const MeshCheck& mesh, std::size_t odd) {
+  if (!all_are_closed(mesh)) return 0;
   return static_cast<std::size_t>(
       std::count_if(mesh.components.begin(), mesh.components.end(),
                     [&](const MeshComponent& c) { return c.inverted && c.depth % 2 == odd; }));
@@ -49,6 +51,7 @@ std::string defects_text(const CheckFindings& found) {
   constexpr std::size_t kMostExamples = 3;
   std::string text = "Defects\n";
   for (const Defect& defect : defects_of(found)) text += line("  %-49s %11zu\n", defect.text, defect.count);
+  if (!all_are_closed(mesh)) text += "  a surface is not closed: which ones turn the wrong way is not known\n";
   std::string pairs;
   for (std::size_t i = 0; i < std::min(kMostExamples, mesh.intersecting_examples.size()); ++i)
     pairs +=

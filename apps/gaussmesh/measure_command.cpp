@@ -17,11 +17,6 @@ struct Measured {
   std::optional<AtomMeasures> by_atoms;  ///< there if a molecule was given
 };
 
-bool all_are_closed(const MeshCheck& mesh) {
-  return std::all_of(mesh.components.begin(), mesh.components.end(),
-                     [](const MeshComponent& c) { return c.closed; });
-}
-
 std::string measured_text(const Measured& found) {
   std::string text = found.name +
                      line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +

@@ -26,6 +26,11 @@ std::string line(const char* format, ...) {
   return buffer;
 }
 
+bool all_are_closed(const MeshCheck& mesh) {
+  return std::all_of(mesh.components.begin(), mesh.components.end(),
+                     [](const MeshComponent& c) { return c.closed; });
+}
+
 std::string components_text(const MeshCheck& mesh) {
   constexpr std::size_t kMost = 20;
   std::string text = line("Components: %zu, Euler number %lld, area %.8g A^2, volume %.8g A^3\n",

@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 /// printf into a string; a line is never longer than the buffer, 256 characters.
 [[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...);
 
+/// Whether every component has an inside.
+bool all_are_closed(const MeshCheck& mesh);
+
 /// A table of the components, and their sums.
 std::string components_text(const MeshCheck& mesh);
 Json components_json(const MeshCheck& mesh);

@@ -595,6 +595,9 @@ class CheckForSolvers(CliTest):
         self.expect(0, "check", mesh(sphere(5, out), sphere(1, inwards)))
         cavity = self.expect(CHECK_FAILED, "check", mesh(sphere(5, out), sphere(1, out))).stdout
         self.assertIn("1 cavities whose faces turn outwards", cavity.splitlines()[-1])
+        corners, faces = sphere(5, out)
+        opened = self.expect(CHECK_FAILED, "check", mesh((corners, faces[1:]), sphere(1, inwards))).stdout
+        self.assertNotIn("inwards", opened.splitlines()[-1], "the cavity is turned as it should be")
         outside = self.expect(CHECK_FAILED, "check", mesh(sphere(5, inwards), sphere(1, inwards))).stdout
         self.assertIn("1 outer surfaces whose faces turn inwards", outside.splitlines()[-1])
 
