@@ -7,9 +7,17 @@
 namespace gaussmesh {
 namespace {
 
+/// Bits of CellProver::Part where there is no surface.
+constexpr unsigned kAllDirections = 0x3F;
+
 int proven_sign(const Range& slope) { return slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0; }
 
 bool is_excluded(const Range& value) { return value.hi < 0.0 || value.lo > 0.0; }
+
+/// Whether there is no surface in the box of the view, or phi grows along the axis (or falls: sign) wherever it is.
+bool proves(const LocalModel::View& view, int axis, int sign) {
+  return is_excluded(view.value()) || proven_sign(view.slope(axis)) == sign;
+}
 
 /// Not a proof, only a reason to stop looking for one: by the model, the surface passes through the inner half.
 bool surface_is_surely_near(const LocalModel::View& view, const Box& box) {
@@ -41,18 +49,43 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   }
   if (depth_ == 0) return {Kind::kUncertified, 0, 0};
 
-  // What each eighth of the cell shows by itself is found once for all directions; those that fewest eighths leave open
-  // are looked at more closely first.
-  cell_atoms_.restrict_from(atoms, model.box(), decay_, atoms.cut);
+  // What is known of each eighth of the cell is found once for all directions: by the cell's own model, which takes
+  // no sums over atoms, and where that leaves all directions open in some eighth, by a model of each.
   Part parts[8];
+  unsigned common = kAllDirections;
+  for (int child = 0; child < 8; ++child) {
+    const Box box = child_box(model.box(), child);
+    parts[child] = look_at(model.over(box), box);
+    common &= parts[child].proven;
+  }
+  if (common == kAllDirections) return {Kind::kExcluded, 0, 0};
+  if (common != 0) {
+    for (const int axis : axes) {
+      for (const int sign : {1, -1}) {
+        if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, axis, sign};
+      }
+    }
+  }
+  // Directions that fewest eighths leave open are looked at more closely first.
+  cell_atoms_.restrict_from(atoms, model.box(), decay_, atoms.cut);
+  LocalModel models[8];
   int open_parts[6] = {};
   bool refuted[6] = {};
   for (int child = 0; child < 8; ++child) {
-    parts[child] = look_at(cell_atoms_, child_box(model.box(), child), depth_);
-    for (int direction = 0; direction < 6; ++direction) {
-      open_parts[direction] += !(parts[child].proven >> direction & 1);
-      refuted[direction] = refuted[direction] || (parts[child].refuted >> direction & 1);
+    Part& part = parts[child];
+    if (part.proven != kAllDirections) {
+      count_box(depth_);
+      models[child] = LocalModel(cell_atoms_, decay_, child_box(model.box(), child));
+      const Part closer = look_at(models[child].over_all(), models[child].box());
+      part = {part.proven | closer.proven, part.refuted | closer.refuted};
     }
+    for (int direction = 0; direction < 6; ++direction) {
+      open_parts[direction] += !(part.proven >> direction & 1);
+      refuted[direction] = refuted[direction] || (part.refuted >> direction & 1);
+    }
+  }
+  if (std::all_of(parts, parts + 8, [](const Part& part) { return part.proven == kAllDirections; })) {
+    return {Kind::kExcluded, 0, 0};
   }
   // The gradient in the middle says little of a surface that only grazes the cell: the other signs come last.
   int order[6];
@@ -67,18 +100,15 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     bool proven = true;
     for (int child = 0; proven && child < 8; ++child) {
       if (parts[child].proven >> direction & 1) continue;
-      proven = depth_ > 1 && prove_monotone(cell_atoms_, child_box(model.box(), child), axis, sign, depth_ - 1);
+      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], axis, sign, depth_ - 1);
     }
     if (proven) return {Kind::kMonotone, axis, sign};
   }
   return {Kind::kUncertified, 0, 0};
 }
 
-CellProver::Part CellProver::look_at(const NearAtoms& atoms, const Box& box, int depth) {
-  ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)];
-  const LocalModel model(atoms, decay_, box);
-  const LocalModel::View view = model.over_all();
-  if (is_excluded(view.value())) return {0x3F, 0};
+CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& box) {
+  if (is_excluded(view.value())) return {kAllDirections, 0};
   Part part;
   for (int axis = 0; axis < 3; ++axis) {
     if (const int sign = proven_sign(view.slope(axis))) part.proven |= 1u << (2 * axis + (sign > 0));
@@ -92,16 +122,19 @@ CellProver::Part CellProver::look_at(const NearAtoms& atoms, const Box& box, int
 }
 
 bool CellProver::prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth) {
+  return prove_parts(atoms, LocalModel(atoms, decay_, box), axis, sign, depth);
+}
+
+bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth) {
   for (int child = 0; child < 8; ++child) {
-    const Box part = child_box(box, child);
-    ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)];
-    const LocalModel model(atoms, decay_, part);
-    const LocalModel::View view = model.over_all();
-    if (is_excluded(view.value())) continue;
-    const int proven = proven_sign(view.slope(axis));
-    if (proven == sign) continue;
-    if (depth <= 1 || (proven == -sign && surface_is_surely_near(view, part))) return false;
-    if (!prove_monotone(atoms, part, axis, sign, depth - 1)) return false;
+    const Box box = child_box(model.box(), child);
+    if (proves(model.over(box), axis, sign)) continue;
+    count_box(depth);
+    const LocalModel closer(atoms, decay_, box);
+    const LocalModel::View view = closer.over_all();
+    if (proves(view, axis, sign)) continue;
+    if (depth <= 1 || (proven_sign(view.slope(axis)) == -sign && surface_is_surely_near(view, box))) return false;
+    if (!prove_parts(atoms, closer, axis, sign, depth - 1)) return false;
   }
   return true;
 }

@@ -1,6 +1,8 @@
 // The certificate of a cell: the surface in it is a graph along one axis.
 #pragma once
 
+#include <algorithm>
+
 #include "field/local_model.h"
 #include "field/near_atoms.h"
 
@@ -15,7 +17,7 @@ struct CellCertificate {
   };
   Kind kind = Kind::kUncertified;
   int axis = 0;
-  int sign = 0;    ///< +1: phi grows along the axis
+  int sign = 0;  ///< +1: phi grows along the axis
 };
 
 /// Proves axes of cells, looking closer through sub-boxes where the cell as a whole does not show it.
@@ -30,16 +32,21 @@ class CellProver {
   /// Whether d(phi)/d(axis) has `sign` wherever phi = c in `box`: proven through sub-boxes, or not.
   bool prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth);
 
-  /// Sub-boxes that proofs have looked at so far, by how often the cell was halved for them.
+  /// Sub-boxes that have had models of their own so far, by how often the cell was halved for them.
   const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }
 
  private:
-  /// What the model of a box shows by itself; bit 2 k + 1 is the direction of growth along axis k, bit 2 k that of fall.
+  /// What a model shows of a box; bit 2 k + 1 is the direction of growth along axis k, bit 2 k that of fall.
   struct Part {
-    unsigned proven = 0;    ///< all bits where there is no surface
-    unsigned refuted = 0;   ///< the surface is surely here, and phi passes c the other way
+    unsigned proven = 0;   ///< all bits where there is no surface
+    unsigned refuted = 0;  ///< the surface is surely here, and phi passes c the other way
   };
-  Part look_at(const NearAtoms& atoms, const Box& box, int depth);
+  static Part look_at(const LocalModel::View& view, const Box& box);
+
+  /// As prove_monotone(), for the parts of the box of a model.
+  bool prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth);
+
+  void count_box(int depth) { ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)]; }
 
   double decay_;
   int depth_;

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/vector_exp.h"
+#include "field/point_value.h"
 
 namespace gaussmesh {
 namespace {
@@ -18,22 +18,8 @@ struct FoldJet {
 };
 
 FoldJet fold_jet(const NearAtoms& atoms, double d, const Vector3d& p, int axis) {
-  double total = 0.0;
-  Vector3d first = Vector3d::Zero(), second = Vector3d::Zero();
-  for (std::size_t i = 0; i < atoms.size(); ++i) {
-    const Vector3d u = p - Vector3d(atoms.x[i], atoms.y[i], atoms.z[i]);
-    const double a = vector_exp(atoms.w[i] - d * u.squaredNorm());
-    total += a;
-    first += a * u;
-    second += a * u[axis] * u;
-  }
-  const Vector3d mean = first / total;
-  FoldJet jet;
-  jet.value = std::log(total);
-  jet.gradient = -2.0 * d * mean;
-  jet.hessian_row = 4.0 * d * d * (second / total - mean[axis] * mean);
-  jet.hessian_row[axis] -= 2.0 * d;
-  return jet;
+  const LineValue line = evaluate_along(atoms, d, {p[0], p[1], p[2]}, axis);
+  return {line.point.value, Vector3d(line.point.gradient.data()), Vector3d(line.gradient_slope.data())};
 }
 
 /// Newton's method for value = 0 and slope along the axis = 0, with steps of least length.

@@ -22,10 +22,7 @@ constexpr int kProofHalvings = 3;
 /// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
 constexpr int kMaxRefinements = 8;
 
-}  // namespace
-
-FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face) {
-  const LocalModel::View view = model.over(face);
+FaceCertificate look_at(const LocalModel::View& view, int axis) {
   const Range value = view.value();
   if (value.hi < 0.0 || value.lo > 0.0) return kFaceEmpty;
   int certificate = kFaceUncertified;
@@ -33,6 +30,29 @@ FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face)
   if (first.lo > 0.0 || first.hi < 0.0) certificate |= kFaceAlongFirst;
   if (second.lo > 0.0 || second.hi < 0.0) certificate |= kFaceAlongSecond;
   return static_cast<FaceCertificate>(certificate);
+}
+
+/// One of the four parts of a face across `axis`.
+Box quarter(const Box& face, int axis, int part) {
+  const int a = first_axis(axis), b = second_axis(axis);
+  Box result = face;
+  (part & 1 ? result.lo : result.hi)[a] = 0.5 * (face.lo[a] + face.hi[a]);
+  (part & 2 ? result.lo : result.hi)[b] = 0.5 * (face.lo[b] + face.hi[b]);
+  return result;
+}
+
+}  // namespace
+
+FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face) {
+  const FaceCertificate whole = look_at(model.over(face), axis);
+  if (whole != kFaceUncertified) return whole;
+  // Quarters of it may all be empty or single-valued along the same axis.
+  int common = kFaceAlongFirst | kFaceAlongSecond | kFaceEmpty;
+  for (int part = 0; part < 4 && common != 0; ++part) {
+    const FaceCertificate certificate = look_at(model.over(quarter(face, axis, part)), axis);
+    if (certificate != kFaceEmpty) common &= certificate;
+  }
+  return static_cast<FaceCertificate>(common & kFaceEmpty ? kFaceEmpty : common);
 }
 
 PlanePoint FaceTracer::plane(int point) const {
@@ -110,25 +130,27 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
   if (std::abs(gradient[axes[0]]) < std::abs(gradient[axes[1]])) std::swap(axes[0], axes[1]);
   for (const int along : axes) {
     const int sign = gradient[along] > 0.0 ? 1 : -1;
-    if (prove_along(atoms, box, along, sign, kProofHalvings) && pair_roots(rect, along, roots)) return;
+    if (prove_along(atoms, model, along, sign, kProofHalvings) && pair_roots(rect, along, roots)) return;
   }
   split_rect(rect, roots);
 }
 
-bool FaceTracer::prove_along(const NearAtoms& atoms, const Box& rect, int along, int sign, int depth) const {
-  const int a = first_axis(axis_), b = second_axis(axis_);
-  for (int child = 0; child < 4; ++child) {
-    Box part = rect;
-    (child & 1 ? part.lo : part.hi)[a] = 0.5 * (rect.lo[a] + rect.hi[a]);
-    (child & 2 ? part.lo : part.hi)[b] = 0.5 * (rect.lo[b] + rect.hi[b]);
-    const LocalModel model(atoms, field_.decay(), part);
-    const LocalModel::View view = model.over_all();
+bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, int along, int sign, int depth) const {
+  const auto is_proven = [&](const LocalModel::View& view) {
     const Range value = view.value();
-    if (value.hi < 0.0 || value.lo > 0.0) continue;
+    if (value.hi < 0.0 || value.lo > 0.0) return true;
     const Range slope = view.slope(along);
-    if (sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0) continue;
+    return sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0;
+  };
+  for (int part = 0; part < 4; ++part) {
+    const Box box = quarter(model.box(), axis_, part);
+    if (is_proven(model.over(box))) continue;
+    const LocalModel closer(atoms, field_.decay(), box);
+    const LocalModel::View view = closer.over_all();
+    if (is_proven(view)) continue;
+    const Range slope = view.slope(along);
     if (depth <= 1 || (sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) return false;
-    if (!prove_along(atoms, part, along, sign, depth - 1)) return false;
+    if (!prove_along(atoms, closer, along, sign, depth - 1)) return false;
   }
   return true;
 }
@@ -292,7 +314,6 @@ void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
 
 void FaceTracer::insert_fold_points(int from, int axis) {
   constexpr int kSamples = 4;        // parts of a piece that are looked at for a change of sign
-  constexpr int kHalvings = 34;      // from a part of a cell to a unit of the coordinates
   const int to = points_[from].next;
   const Piece piece = pieces_[points_[from].piece];
   const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
@@ -304,18 +325,38 @@ void FaceTracer::insert_fold_points(int from, int axis) {
     const double hi = i == kSamples ? b : a + (b - a) * i / kSamples;
     const float hi_slope = i == kSamples ? points_[to].point.normal[axis] : solve_on_piece(piece, hi).normal[axis];
     if (lo_slope * hi_slope < 0.0f) {
-      double p = lo, q = hi;
-      for (int step = 0; step < kHalvings && std::abs(q - p) > 2e-9; ++step) {
-        const double middle = 0.5 * (p + q);
-        (solve_on_piece(piece, middle).normal[axis] * lo_slope > 0.0f ? p : q) = middle;
-      }
-      from = insert_between(from, 0.5 * (p + q));
+      from = insert_between(from, find_fold_point(piece, axis, lo, hi, lo_slope, hi_slope));
       points_[from].kept = true;
       points_[from].point.fold_axes = static_cast<std::uint8_t>(1u << axis);
     }
     lo = hi;
     lo_slope = hi_slope;
   }
+}
+
+double FaceTracer::find_fold_point(const Piece& piece, int axis, double lo, double hi, double lo_slope,
+                                   double hi_slope) {
+  constexpr int kMostSteps = 100;    // every fourth one halves the bracket
+  constexpr double kClosest = 2e-9;  // A: the coordinates' own unit
+  double at = lo;
+  for (int step = 0; step < kMostSteps && std::abs(hi - lo) > kClosest; ++step) {
+    const double last = at;
+    at = step % 4 == 3 ? 0.5 * (lo + hi) : lo + (hi - lo) * (lo_slope / (lo_slope - hi_slope));
+    if (std::abs(at - last) < kClosest) return at;
+    const double slope = solve_on_piece(piece, at).normal[axis];
+    if (slope == 0.0) return at;
+    // An end that stays where it is counts half the next time (the Illinois rule).
+    if (slope * lo_slope > 0.0) {
+      lo = at;
+      lo_slope = slope;
+      hi_slope *= 0.5;
+    } else {
+      hi = at;
+      hi_slope = slope;
+      lo_slope *= 0.5;
+    }
+  }
+  return 0.5 * (lo + hi);
 }
 
 SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {

@@ -107,13 +107,15 @@ class FaceTracer {
 
   void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
   bool pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots);
-  bool prove_along(const NearAtoms& atoms, const Box& rect, int along, int sign, int depth) const;
+  bool prove_along(const NearAtoms& atoms, const LocalModel& model, int along, int sign, int depth) const;
   void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
   std::vector<RectRoot> cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
   void choose_points(const Chain& chain);
   void keep_fold_points(const Chain& chain, int axis);
   void insert_fold_points(int from, int axis);
+  /// Where on a piece the slope along `axis` changes its sign, between two places where its signs differ.
+  double find_fold_point(const Piece& piece, int axis, double lo, double hi, double lo_slope, double hi_slope);
   int insert_between(int from, double at);
   int insert_turning_point(int from);
   int insert_middle(int from);
