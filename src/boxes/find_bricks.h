@@ -24,7 +24,7 @@ inline FineIndex brick_origin(const BrickIndex& brick) {
 ///
 /// Halves a cube around all atoms again and again and drops the parts where phi < c or phi > c is proven: work and
 /// memory grow with the surface and the atoms.
-std::vector<BrickIndex> find_bricks(const GaussianField& field, const Lattice& lattice);
+std::vector<BrickIndex> find_bricks(const GaussianField& field, const Lattice& lattice, int threads = 1);
 
 /// How far the search went: boxes looked at by size, for the report.
 struct BoxLevel {

@@ -19,25 +19,27 @@ class BrickTracer {
     tracer_.set_plain(true);
   }
 
-  TracedBrick trace(std::uint32_t brick_number) {
-    TracedBrick result;
+  /// Fills the links and face points of a brick, and nothing that other bricks are traced from.
+  void trace(Brick& result, std::uint32_t brick_number) {
     move_to(brick_number);
-    const Brick& brick = store_.bricks()[brick_number];
-    result.counts.resize(brick.cells.size());
-    for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
+    result.links.clear();
+    result.face_points.clear();
+    for (std::uint32_t i = 0; i < result.cells.size(); ++i) {
+      result.cells[i].first_link = static_cast<std::uint32_t>(result.links.size());
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t before = result.links.size();
         trace_face({brick_number, i}, axis, result);
         const std::size_t count = result.links.size() - before;
         if (count > 255) throw InternalError("more than 255 curve pieces on a face: choose a smaller spacing");
-        result.counts[i][axis] = static_cast<std::uint8_t>(count);
+        result.cells[i].link_count[axis] = static_cast<std::uint8_t>(count);
       }
     }
-    return result;
+    result.links.shrink_to_fit();
+    result.face_points.shrink_to_fit();
   }
 
  private:
-  void trace_face(const CellStore::Place& place, int axis, TracedBrick& result) {
+  void trace_face(const CellStore::Place& place, int axis, Brick& result) {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
     const FaceCertificate certificate = certificate_of(place, axis);
@@ -56,10 +58,10 @@ class BrickTracer {
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
     const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.fold_axes[axis]);
-    const auto base = static_cast<std::uint32_t>(result.points.size());
+    const auto base = static_cast<std::uint32_t>(result.face_points.size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
-    result.points.insert(result.points.end(), curves.points.begin(), curves.points.end());
+    result.face_points.insert(result.face_points.end(), curves.points.begin(), curves.points.end());
   }
 
   /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in it.
@@ -232,30 +234,18 @@ void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
   parallel_for_workers(bricks.size(), threads, 1, [&] {
     return [&, tracer = BrickTracer(field_, lattice_, store_)](std::size_t i) mutable {
       std::vector<std::uint32_t> state = flags_of(bricks[i]);
-      traced_[i].is_new = !traced_[i].is_done || state != traced_[i].state;
-      if (!traced_[i].is_new) return;
-      traced_[i] = tracer.trace(static_cast<std::uint32_t>(i));
-      traced_[i].state = std::move(state);
-      traced_[i].is_new = traced_[i].is_done = true;
+      TracedBrick& traced = traced_[i];
+      traced.is_new = !traced.is_done || state != traced.state;
+      if (!traced.is_new) return;
+      tracer.trace(bricks[i], static_cast<std::uint32_t>(i));
+      traced.state = std::move(state);
+      traced.is_done = true;
     };
   });
   std::uint32_t next_vertex = first_vertex;
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    Brick& brick = bricks[i];
-    const TracedBrick& traced = traced_[i];
-    brick.links = traced.links;
-    brick.face_points = traced.points;
+  for (Brick& brick : bricks) {
     brick.first_face_vertex = next_vertex;
-    for (Link& link : brick.links) {
-      for (std::uint32_t* v : {&link.from, &link.to}) *v = *v >= kLocalVertex ? next_vertex + (*v - kLocalVertex) : *v;
-    }
     next_vertex += static_cast<std::uint32_t>(brick.face_points.size());
-    std::uint32_t first_link = 0;
-    for (std::size_t c = 0; c < brick.cells.size(); ++c) {
-      brick.cells[c].link_count = traced.counts[c];
-      brick.cells[c].first_link = first_link;
-      for (std::uint8_t count : traced.counts[c]) first_link += count;
-    }
   }
 }
 

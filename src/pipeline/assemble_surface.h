@@ -10,14 +10,11 @@
 
 namespace gaussmesh {
 
-/// The curves on the faces of one brick. Vertices inside faces are numbered within it, from kLocalVertex on.
+/// For which demands the curves on the faces of one brick were followed.
 struct TracedBrick {
-  std::vector<Link> links;
-  std::vector<SurfacePoint> points;
-  std::vector<std::array<std::uint8_t, 3>> counts;   ///< links by cell and face
-  std::vector<std::uint32_t> state;                  ///< what was asked of the faces, by cell
+  std::vector<std::uint32_t> state;   ///< what was asked of the faces, by cell
   bool is_done = false;
-  bool is_new = false;                               ///< not what it was in the round before
+  bool is_new = false;                ///< not what it was in the round before
 };
 
 /// Follows the curves on the faces of level 0, and again where smaller cells have since taken faces over.
@@ -25,7 +22,7 @@ class LevelZeroTracer {
  public:
   LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store);
 
-  /// Fills `links` and `face_points` of the bricks; vertices inside faces are numbered from `first_vertex` on.
+  /// Fills `links` and `face_points` of the bricks, whose vertices are numbered from `first_vertex` on.
   void trace(std::uint32_t first_vertex, int threads);
 
   /// Whether the last call followed the curves of a brick again.

@@ -79,7 +79,7 @@ std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
 }
 
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
-  const std::vector<BrickIndex> found = find_bricks(field, lattice);
+  const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);
   std::vector<Brick> all(found.size());
   parallel_for_workers(found.size(), threads, 1, [&] {
     return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };

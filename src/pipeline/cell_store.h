@@ -34,7 +34,7 @@ struct Brick {
   std::vector<SurfaceCell> cells;            ///< by `local`
   std::vector<EdgeRoot> roots;
   std::vector<Link> links;
-  std::vector<SurfacePoint> face_points;     ///< vertices inside faces
+  std::vector<SurfacePoint> face_points;     ///< vertices inside faces, those of `links` from kLocalVertex on
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
   std::uint32_t first_face_vertex = 0;       ///< number of the first of `face_points`
   std::vector<std::size_t> boxes_by_level;
@@ -72,6 +72,7 @@ class CellStore {
   /// Roots on the edge of level 0 that begins at `lo`.
   std::span<const EdgeRoot> edge_roots(const Place& place, int axis) const;
   std::uint32_t first_vertex(const Place& place, int axis) const;
+  /// The links in a face; a vertex inside it is numbered within the brick, from kLocalVertex on.
   std::span<const Link> face_links(const Place& place, int axis) const;
 
   std::uint32_t root_vertices() const { return root_vertices_; }

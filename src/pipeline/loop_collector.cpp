@@ -19,16 +19,22 @@ std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t h
 // The surface of a cell is on the left of a link in its low faces, on the right of one in its high faces.
 void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
   std::span<const Link> links;
+  std::uint32_t first_local = 0;
   if (level == 0) {
     const auto place = store_.find(lo, hint);
     if (!place) return;
     if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
     links = store_.face_links(*place, axis);
+    first_local = store_.bricks()[place->brick].first_face_vertex;
   } else {
     if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
     links = split_.face_links(axis, lo, level);
   }
-  for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);
+  const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? first_local + (v - kLocalVertex) : v; };
+  for (const Link& link : links) {
+    const std::uint32_t from = numbered(link.from), to = numbered(link.to);
+    links_.push_back(high_side ? Link{to, from} : Link{from, to});
+  }
 }
 
 void LoopCollector::collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
