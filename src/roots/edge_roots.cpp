@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/lattice_degenerate.h"
 #include "field/point_value.h"
@@ -15,6 +16,10 @@ constexpr double kClosestRoots = 1e-8;
 
 /// Log-weight below which an atom does not matter next to rounding: e^-60 = 1e-26.
 constexpr double kNoTruncation = 60.0;
+
+/// Where segments this short (A) are not decided, the edge nearly touches the surface, and what the lists of atoms
+/// leave out decides. Molecules of 1e5 atoms have several such edges.
+constexpr double kNeedsAllAtoms = 1e-4;
 
 /// Roots are found to this (A), a tenth of the unit that coordinates are rounded to.
 constexpr double kRootTolerance = 1e-10;
@@ -49,8 +54,8 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess) {
-  // The third derivative of log phi is -8 d^3 times the third central moment of the atoms' positions, which is at most
-  // the cube of their range over 6 sqrt(3).
+  // The third derivative of log phi is -8 d^3 times the third central moment of the atoms' positions, which is at
+  // most the cube of their range over 6 sqrt(3).
   const double reach = atoms.size() > 0 ? decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
   const double third = 0.77 * reach * reach * reach;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
@@ -69,8 +74,8 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     const double step = std::abs(next - x);
     root.position = next;
     for (int k = 0; k < 3; ++k) root.gradient[k] += gradient_slope[k] * (next - x);
-    // The parabola misses by the third derivative times a sixth of the step cubed, over the slope, which itself changes
-    // by no more than half over the step. The gradient, corrected to first order, is good to 1e-7 then.
+    // The parabola misses by the third derivative times a sixth of the step cubed, over the slope, which itself
+    // changes by no more than half over the step. The gradient, corrected to first order, is good to 1e-7 then.
     const bool is_near = step * step * step * third < 3.0 * kRootTolerance * std::abs(slope) &&
                          step * (std::abs(curvature) + third * step) < 0.5 * std::abs(slope) &&
                          step * step * decay < 1e-8;
@@ -143,6 +148,13 @@ void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
     return;
   }
   if (s.b - s.a < kClosestRoots) throw LatticeDegenerate(part.lo);
+  if (s.b - s.a < kNeedsAllAtoms && atoms_ != &all_) {
+    field_.collect_near(part, all_, kNoTruncation);
+    const NearAtoms* const some = std::exchange(atoms_, &all_);
+    isolate(LocalModel(all_, field_.decay(), part), s);
+    atoms_ = some;
+    return;
+  }
   if (model.box().lo != part.lo || model.box().hi != part.hi) {
     // A model of the edge alone is closer than one of the cell.
     isolate(LocalModel(*atoms_, field_.decay(), part), s);

@@ -27,22 +27,24 @@ struct EdgeRoot {
 
 /// What is known of an edge beforehand.
 struct EdgeEnds {
-  Side lo = Side::kUnknown;   ///< of its lower end
+  Side lo = Side::kUnknown;  ///< of its lower end
   Side hi = Side::kUnknown;
-  bool is_monotone = false;   ///< phi passes c in one direction only along the edge
+  bool is_monotone = false;  ///< phi passes c in one direction only along the edge
 };
 
 /// Finds every root of phi = c on lattice edges.
 ///
-/// Following [CL11] roots are found on lines along x, y and z; the proof of completeness is ours: the edge is cut into
-/// intervals on which bounds show that phi - c has no root, or that its derivative has one sign where it has, so that
-/// the signs at the ends tell whether there is one. No step size is involved. Keeps buffers: one for each thread.
+/// Following [CL11] roots are found on lines along x, y and z; the proof of completeness is ours: the edge is cut
+/// into intervals on which bounds show that phi - c has no root, or that its derivative has one sign where it has,
+/// so that the signs at the ends tell whether there is one. No step size is involved. Keeps buffers: one for each
+/// thread.
 class EdgeRootFinder {
  public:
   EdgeRootFinder(const GaussianField& field, const Lattice& lattice) : field_(field), lattice_(lattice) {}
 
-  /// Roots on the edge from `lo` along `axis` to coordinate `hi`, in rising order, strictly inside the edge and on no
-  /// plane of the finest lattice. `model` is over a box that contains the edge, and `atoms` were collected for one.
+  /// Roots on the edge from `lo` along `axis` to coordinate `hi`, in rising order, strictly inside the edge and on
+  /// no plane of the finest lattice. `model` is over a box that contains the edge, and `atoms` were collected for
+  /// one.
   /// @throws LatticeDegenerate where two roots, or a root and a lattice plane, cannot be told apart
   std::span<const EdgeRoot> find(const NearAtoms& atoms, const LocalModel& model, int axis, const CoordPoint& lo,
                                  Coord hi, const EdgeEnds& ends = {});
@@ -68,6 +70,7 @@ class EdgeRootFinder {
   CoordPoint lo_{};
   Coord hi_ = 0;
   Vec3 base_{};
+  NearAtoms all_;  ///< those of a segment that needs every atom
   std::vector<EdgeRoot> roots_;
 };
 

@@ -150,6 +150,29 @@ TEST_CASE("a line that passes the sphere closely has no root, a tangent one is r
   CHECK_THROWS_AS(find_roots(field, {-0.31, 2.0, 0}, 0, 0.27), LatticeDegenerate);
 }
 
+TEST_CASE("an edge that nearly touches the surface is decided by all atoms, also those that its list leaves out") {
+  // By symmetry the line along x is nearest to the surface at x = 0. The second atom adds some e^-14 there.
+  const GaussianField field({{0, 0, 0, 2.0, 0}, {0, 7.06, 0, 1.5, 0}}, 0.6, 1.0);
+  double inside = 1.9, outside = 2.1;
+  for (int i = 0; i < 60; ++i) {
+    const double y = 0.5 * (inside + outside);
+    const double phi = std::exp(-0.6 * (y * y - 4.0)) + std::exp(-0.6 * ((y - 7.06) * (y - 7.06) - 2.25));
+    (phi > 1.0 ? inside : outside) = y;
+  }
+  constexpr double kShortList = 12.0;
+  for (const double gap : {5e-9, -5e-9}) {
+    CAPTURE(gap);
+    const CoordPoint lo = to_coord({-0.31, outside + gap, 0});
+    const Coord hi = to_coord(0.27);
+    const Box box{to_angstrom(lo), {to_angstrom(hi), to_angstrom(lo)[1], 0}};
+    NearAtoms near;
+    field.collect_near(box, near, kShortList);
+    REQUIRE(near.size() == 1);
+    EdgeRootFinder finder(field, kLattice);
+    CHECK(finder.find(near, LocalModel(near, field.decay(), box), 0, lo, hi).size() == (gap > 0 ? 0 : 2));
+  }
+}
+
 TEST_CASE("edges of many sizes through clouds have the roots that a dense look along them finds") {
   const std::uint64_t seed = 52;
   CAPTURE(seed);
@@ -218,7 +241,8 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
   }
 }
 
-TEST_CASE("roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
+TEST_CASE(
+    "roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
   const double decay = 0.6;
   const std::vector<Atom> atoms = {{-900.0, 0.0, 0.0, 1000.0, 0}, {900.0, 0.0, 0.0, 1000.0, 0}};
   const GaussianField field(atoms, decay, 1.3);
