@@ -201,7 +201,9 @@ class CellPatcher {
 std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split, int threads) {
   const std::vector<Brick>& bricks = store.bricks();
   std::vector<SurfacePoint> points;
-  points.resize(bricks.empty() ? 0 : bricks.back().first_face_vertex + bricks.back().face_points.size());
+  const std::size_t count = bricks.empty() ? 0 : bricks.back().first_face_vertex + bricks.back().face_points.size();
+  points.reserve(count + count / 32);  // the few vertices inside cells come behind, without a second array
+  points.resize(count);
   const auto at = [&](std::uint32_t vertex) { return points.begin() + static_cast<std::ptrdiff_t>(vertex); };
   parallel_for(bricks.size(), threads, [&](std::size_t i) {
     const Brick& brick = bricks[i];
@@ -292,6 +294,7 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
         result = {};
         const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
         for (std::uint32_t i = 0; i < cells; ++i) patcher.patch_cell({brick, i}, result);
+        result.triangles.shrink_to_fit();
       } else {
         // Smaller cells see no vertices inside faces of level 0: theirs keep their numbers.
         const SplitCell& cell = split.cells()[task - bricks];
@@ -307,11 +310,10 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
     outcome.fold_cells += cells.fold_cells;
     outcome.failed.insert(outcome.failed.end(), cells.failed.begin(), cells.failed.end());
   }
-  if (outcome.failed.empty()) join(outcome.surface, split.dead_vertices(), threads);
   return outcome;
 }
 
-void CellTriangulator::join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) {
+void CellTriangulator::join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) && {
   std::sort(dead_vertices.begin(), dead_vertices.end());
   for (std::size_t i = 0; i < dead_vertices.size(); ++i) {
     // The living ones from a dead one to the next move down by as many as are dead before them.

@@ -59,14 +59,17 @@ class CellTriangulator {
                    double least_corner_cosine)
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
-  /// All curves have been traced. When no cell failed, the surface is complete, and this is the last call.
+  /// All curves have been traced. When no cell failed, this is the last call, and join() makes the surface.
   PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const LevelZeroTracer& faces,
                            int threads);
+
+  /// Adds the triangles, and the vertices inside cells, to the points that triangulate() gave. Cells and curves are not
+  /// needed any more, and may be gone.
+  void join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) &&;
 
  private:
   bool must_be_redone(const SplitLattice& split, const LevelZeroTracer& faces, std::uint32_t brick) const;
   void renumber_face_points(PatchedCells& cells) const;
-  void join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads);
 
   const GaussianField& field_;
   const Lattice& lattice_;

@@ -53,6 +53,9 @@ class CellStore {
   /// Finds the cells, their certificates, the certificates of their faces and the roots on their edges.
   CellStore(const GaussianField& field, const Lattice& lattice, int threads);
 
+  /// Gives all cells back, with their roots and curves, when nobody asks for them any more.
+  void clear() { bricks_ = std::vector<Brick>(); }
+
   std::vector<Brick>& bricks() { return bricks_; }
   const std::vector<Brick>& bricks() const { return bricks_; }
 

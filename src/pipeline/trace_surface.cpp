@@ -76,13 +76,17 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     faces.trace(split.next_vertex(), threads);
     finished("curves");
     PatchOutcome outcome = cells.triangulate(split, folds, faces, threads);
-    finished("patches");
     if (outcome.failed.empty()) {
-      result.surface = std::move(outcome.surface);
       result.cells_split = split.split_cells();
       result.cells_cut_by_folds = outcome.fold_cells;
+      std::vector<std::uint32_t> dead_vertices = split.dead_vertices();
+      store.clear();
+      result.surface = std::move(outcome.surface);
+      std::move(cells).join(result.surface, std::move(dead_vertices), threads);
+      finished("patches");
       return result;
     }
+    finished("patches");
     for (const CellKey& cell : outcome.failed) {
       if (cell.level == kMaxLevel) throw LatticeDegenerate(to_angstrom(lattice.point(cell.lo)));
     }
