@@ -46,7 +46,8 @@ struct Sweep {
 };
 constexpr Sweep kSweeps[] = {{3, false, false, false}, {3, false, false, false}, {3, true, false, false},
                              {2, true, true, false},   {1, true, true, true},    {1, true, true, true},
-                             {1, true, true, true},    {1, true, true, true}};
+                             {1, true, true, true},    {1, true, true, true},    {1, true, true, true},
+                             {1, true, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
 /// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
@@ -155,7 +156,8 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
       BlockMesh block = blocks.extract(b);
       improve_block(block, field, now, guarding, sweep);
       blocks.store(b, std::move(block));
-      if (on_progress) on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
+      if (on_progress)
+        on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
     mesh = std::move(blocks).join(threads);
   };
