@@ -27,6 +27,12 @@ struct Box {
   Vec3 hi{};
 };
 
+/// Number of the slab, of `count` of width 1 from 0 on, that holds `x`; the first or the last one for what lies beyond.
+template <typename Real>
+int slab_of(Real x, int count) {
+  return x <= Real{0} ? 0 : x >= static_cast<Real>(count - 1) ? count - 1 : static_cast<int>(x);
+}
+
 /// How often a cell of the asked-for spacing may be halved.
 inline constexpr int kMaxLevel = 16;
 inline constexpr std::int64_t kFinePerCell = std::int64_t{1} << kMaxLevel;

@@ -65,10 +65,7 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
 
 const NearAtoms& BlockField::atoms_at(const Vec3& point) {
   std::array<int, 3> index;
-  for (int k = 0; k < 3; ++k) {
-    const double i = (point[k] - box_.lo[k]) / cell_size_;
-    index[k] = i <= 0.0 ? 0 : i >= cells_[k] - 1 ? cells_[k] - 1 : static_cast<int>(i);
-  }
+  for (int k = 0; k < 3; ++k) index[k] = slab_of((point[k] - box_.lo[k]) / cell_size_, cells_[k]);
   AtomList& list = lists_[static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
   if (list.is_made) return list.atoms;
   list.is_made = true;

@@ -41,13 +41,14 @@ constexpr float kSmallerAtLast = 0.65f;
 struct Sweep {
   int rounds = 0;  ///< of splits, collapses, flips and relaxation
   bool repairs = false;
-  bool is_exact = false;  ///< leaves the vertices exactly on the surface
+  bool settles = false;   ///< leaves the vertices exactly on the surface; extra ones do so at every step
   bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
 };
+constexpr Sweep kExtraSweep{1, true, false, true};
 constexpr Sweep kSweeps[] = {{3, false, false, false}, {3, false, false, false}, {3, true, false, false},
-                             {2, true, true, false},   {1, true, true, true},    {1, true, true, true},
-                             {1, true, true, true},    {1, true, true, true},    {1, true, true, true},
-                             {1, true, true, true}};
+                             {2, true, true, false},   kExtraSweep,              kExtraSweep,
+                             kExtraSweep,              kExtraSweep,              kExtraSweep,
+                             kExtraSweep};
 constexpr int kSweepsWithOtherPlanes = 4;
 
 /// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
@@ -110,7 +111,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   if (sweep.is_extra && !activate_bad_places(mesh)) return;
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
-  SheetGuard guard(mesh, targets.spacing, guarding == Guarding::kEverywhere);
+  SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
   for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor) > 0; ++i) {
   }
   for (int round = 0; round < sweep.rounds; ++round) {
@@ -120,7 +121,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
     even_out_valences(mesh, guard);
     relax_vertices(mesh, guard, field, sweep.is_extra ? Accuracy::kExact : Accuracy::kRough);
   }
-  if (sweep.is_exact && !sweep.is_extra) settle_vertices(mesh, field);
+  if (sweep.settles) settle_vertices(mesh, field);
   if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
 }

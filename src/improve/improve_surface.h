@@ -33,7 +33,7 @@ enum class Guarding {
 /// @param traced   closed, oriented, embedded
 /// @param targets  spacing at most kLargestSpacing; `largest` is found here
 /// @param on_progress  called after each block, on any thread
-/// Cost: about ten sums over the atoms nearby for each vertex.
+/// Cost: about twenty sums over the atoms nearby for each vertex.
 SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
                             Guarding guarding, int threads,
                             const std::function<void(double share_done)>& on_progress = {});

@@ -62,7 +62,8 @@ class VertexGrid {
     for (std::uint32_t v = 0; v < mesh.at.size(); ++v) boxes_[cells_of_[v]].add(mesh.normal[v]);
   }
 
-  /// Calls mark(v) for every active vertex that has one of another sheet within reach.
+  /// Calls mark(v) for every vertex that has one of another sheet within reach; also for those that stay where they
+  /// are, since what moves is tested against their triangles.
   template <typename Mark>
   void find_close_sheets(const Mark& mark) const {
     constexpr double kChordSq = 2.0 - 2.0 * kOtherSheet;
@@ -85,8 +86,7 @@ class VertexGrid {
       }
       if (normals.most_chord_sq() < kChordSq) continue;
       for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-        const std::uint32_t v = sorted_[i];
-        if (mesh_.is_active[v] && has_other_sheet(v, near.data(), count)) mark(v);
+        if (has_other_sheet(sorted_[i], near.data(), count)) mark(sorted_[i]);
       }
     }
   }
@@ -95,12 +95,9 @@ class VertexGrid {
   static constexpr int kCells = 24;
 
   std::uint32_t cell_of(const Vec3& p) const {
-    std::uint32_t cell = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double i = std::floor((p[k] - mesh_.box.lo[k]) / cell_size_);
-      cell = cell * kCells + (i <= 0.0 ? 0u : i >= kCells - 1 ? kCells - 1u : static_cast<std::uint32_t>(i));
-    }
-    return cell;
+    int cell = 0;
+    for (int k = 0; k < 3; ++k) cell = cell * kCells + slab_of((p[k] - mesh_.box.lo[k]) / cell_size_, kCells);
+    return static_cast<std::uint32_t>(cell);
   }
 
   bool has_other_sheet(std::uint32_t v, const std::uint32_t* near, std::size_t count) const {
@@ -140,7 +137,7 @@ void mark_close_sheets(BlockMesh& mesh, double reach) {
 
 }  // namespace
 
-SheetGuard::SheetGuard(BlockMesh& mesh, double spacing, bool everywhere)
+SheetGuard::SheetGuard(BlockMesh& mesh, double largest, bool everywhere)
     : lo_(mesh.box.lo), everywhere_(everywhere), head_(kMostCells * kMostCells * kMostCells, -1) {
   double width = 0.0;
   for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
@@ -148,7 +145,7 @@ SheetGuard::SheetGuard(BlockMesh& mesh, double spacing, bool everywhere)
   if (everywhere) {
     std::fill(mesh.is_guarded.begin(), mesh.is_guarded.end(), std::uint8_t{1});
   } else {
-    mark_close_sheets(mesh, kReachInSizes * spacing);
+    mark_close_sheets(mesh, kReachInSizes * largest);
   }
   for (std::uint32_t t = 0; t < mesh.connectivity.triangles(); ++t) insert(mesh, t);
   for (std::uint32_t i = 0; i < mesh.fixed.size(); ++i) {

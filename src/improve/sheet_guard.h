@@ -12,8 +12,9 @@ namespace gaussmesh {
 class SheetGuard {
  public:
   /// Marks the vertices of `mesh` that have another sheet near.
+  /// @param largest  no wanted edge is longer (A)
   /// @param everywhere  mark all of them: slow, but then nothing rests on what counts as near
-  SheetGuard(BlockMesh& mesh, double spacing, bool everywhere);
+  SheetGuard(BlockMesh& mesh, double largest, bool everywhere);
 
   static bool is_guarded(const BlockMesh& mesh, const Triangle& t) {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
@@ -113,10 +114,7 @@ class SheetGuard {
     return false;
   }
 
-  int index_of(float x) const {
-    const float i = x * cells_per_angstrom_;
-    return i <= 0.0f ? 0 : i >= static_cast<float>(kMostCells - 1) ? kMostCells - 1 : static_cast<int>(i);
-  }
+  int index_of(float x) const { return slab_of(x * cells_per_angstrom_, kMostCells); }
 
   Vec3 lo_;
   float cells_per_angstrom_;

@@ -21,6 +21,9 @@ constexpr double kNoTruncation = 60.0;
 /// leave out decides. Molecules of 1e5 atoms have several such edges.
 constexpr double kNeedsAllAtoms = 1e-4;
 
+/// No rounding error of log(phi / c) near the surface is larger.
+constexpr double kValueError = 1e-12;
+
 /// Roots are found to this (A), a tenth of the unit that coordinates are rounded to.
 constexpr double kRootTolerance = 1e-10;
 
@@ -38,16 +41,26 @@ std::array<float, 3> outward_normal(const Vec3& g) {
   return {static_cast<float>(f * g[0]), static_cast<float>(f * g[1]), static_cast<float>(f * g[2])};
 }
 
-bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
+namespace {
+
+/// The side of a point: proven, or unknown where |phi / c - 1| is below the rounding error.
+Side proven_side(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
   const Range range = model.over({point, point}).value();
-  if (range.lo > 0.0) return true;
-  if (range.hi < 0.0) return false;
+  if (range.lo > 0.0) return Side::kInside;
+  if (range.hi < 0.0) return Side::kOutside;
   Side side = side_of(evaluate(atoms, field.decay(), point), atoms);
   if (side == Side::kUnknown) {
     NearAtoms all;
     field.collect_near({point, point}, all, kNoTruncation);
     side = side_of(evaluate(all, field.decay(), point), all);
   }
+  return side;
+}
+
+}  // namespace
+
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
+  const Side side = proven_side(field, atoms, model, point);
   if (side == Side::kUnknown) throw LatticeDegenerate(point);
   return side == Side::kInside;
 }
@@ -179,18 +192,37 @@ void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
   const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;
-  result.point.position[axis_] = snap(root.position, lo_[axis_], hi_);
+  result.point.position[axis_] = snap(model, s, root);
   result.point.normal = outward_normal(root.gradient);
   result.side = s.inside_a ? -1 : 1;
   roots_.push_back(result);
 }
 
-Coord EdgeRootFinder::snap(double x, Coord lo, Coord hi) const {
-  Coord c = std::llround(x * kUnitsPerAngstrom);
-  c = std::clamp(c, lo + 1, hi - 1);
-  // A root that rounds onto a lattice plane goes to the side of it that it came from.
-  if ((c - lattice_.offset[axis_]) % lattice_.step == 0) c += x < to_angstrom(c) ? -1 : 1;
-  return c;
+Coord EdgeRootFinder::snap(const LocalModel& model, const Segment& s, const LineRoot& root) const {
+  // The atoms left out move a root by up to their share of phi over its slope.
+  const double error = kRootTolerance + 2.0 * (atoms_->tail + kValueError) / std::abs(root.gradient[axis_]);
+  const double at_units = root.position * kUnitsPerAngstrom;
+  const double slack = std::min(error * kUnitsPerAngstrom, double(hi_ - lo_[axis_])) + 1.0;
+  const auto plane_below = [&](double x) {
+    return static_cast<std::int64_t>(std::floor((x - double(lattice_.offset[axis_])) / double(lattice_.step)));
+  };
+  const auto is_above = [&](std::int64_t n) {
+    const double plane = to_angstrom(lattice_.plane(axis_, n));
+    if (plane <= s.a || plane >= s.b) return plane <= s.a;
+    const Side side = proven_side(field_, *atoms_, model, at(plane));
+    if (side == Side::kUnknown) return plane < root.position;
+    return (side == Side::kInside) == s.inside_a;
+  };
+  const std::int64_t first = plane_below(at_units - slack) + 1, last = plane_below(at_units + slack);
+  std::int64_t below = first - 1, above = last + 1;
+  while (above - below > 1) {
+    const std::int64_t n = below + (above - below) / 2;
+    (is_above(n) ? below : above) = n;
+  }
+  Coord c = std::llround(at_units);
+  if (below >= first) c = std::max(c, lattice_.plane(axis_, below) + 1);
+  if (above <= last) c = std::min(c, lattice_.plane(axis_, above) - 1);
+  return std::clamp(c, lo_[axis_] + 1, hi_ - 1);
 }
 
 }  // namespace gaussmesh

@@ -25,6 +25,12 @@ struct EdgeRoot {
   std::int8_t side = 0;  ///< +1: enters the molecule along the edge; -1: leaves it
 };
 
+/// A root on a line: its coordinate (A), and grad log phi there.
+struct LineRoot {
+  double position = 0.0;
+  Vec3 gradient{};
+};
+
 /// What is known of an edge beforehand.
 struct EdgeEnds {
   Side lo = Side::kUnknown;  ///< of its lower end
@@ -42,9 +48,9 @@ class EdgeRootFinder {
  public:
   EdgeRootFinder(const GaussianField& field, const Lattice& lattice) : field_(field), lattice_(lattice) {}
 
-  /// Roots on the edge from `lo` along `axis` to coordinate `hi`, in rising order, strictly inside the edge and on
-  /// no plane of the finest lattice. `model` is over a box that contains the edge, and `atoms` were collected for
-  /// one.
+  /// Roots on the edge from `lo` along `axis` to coordinate `hi`, in rising order, strictly inside the edge, and on
+  /// that side of each plane of the finest lattice where the exact root is. `model` is over a box that contains the
+  /// edge, and `atoms` were collected for one.
   /// @throws LatticeDegenerate where two roots, or a root and a lattice plane, cannot be told apart
   std::span<const EdgeRoot> find(const NearAtoms& atoms, const LocalModel& model, int axis, const CoordPoint& lo,
                                  Coord hi, const EdgeEnds& ends = {});
@@ -60,7 +66,9 @@ class EdgeRootFinder {
 
   void isolate(const LocalModel& model, const Segment& segment);
   void refine(const LocalModel& model, const Segment& segment);
-  Coord snap(double x, Coord lo, Coord hi) const;
+  /// The coordinate of a root, rounded, on the side of every lattice plane that the exact root is on: signs on the
+  /// planes tell where distances do not.
+  Coord snap(const LocalModel& model, const Segment& segment, const LineRoot& root) const;
   Vec3 at(double x) const;
 
   const GaussianField& field_;
@@ -80,10 +88,6 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 /// The root of phi = c on the line through `start` along `axis` between coordinates a and b, where phi - c has
 /// opposite signs; good to 1e-10 A. @param inside_a whether phi > c at a
-struct LineRoot {
-  double position = 0.0;
-  Vec3 gradient{};
-};
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess);
 

@@ -99,16 +99,22 @@ void build_field(benchmark::State& state, const Workload& work) {
   count_items(state, work.atoms.size());
 }
 
+/// A thousand vertices of the mesh or a little more, spread over all of it.
+std::vector<Vec3> some_vertices(const TriangleMesh& mesh) {
+  constexpr std::size_t kCount = 1000;
+  const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kCount);
+  std::vector<Vec3> some;
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += step) some.push_back(mesh.vertices[v]);
+  return some;
+}
+
 /// phi at vertices, with the atoms near each at hand.
 void evaluate_points(benchmark::State& state, const Workload& work) {
-  constexpr std::size_t kPoints = 1000;
   std::vector<std::pair<NearAtoms, Vec3>> points;
-  const std::vector<Point>& vertices = work.raw.mesh.vertices;
-  const std::size_t step = std::max<std::size_t>(1, vertices.size() / kPoints);
-  for (std::size_t v = 0; v < vertices.size(); v += step) {
+  for (const Vec3& at : some_vertices(work.raw.mesh)) {
     NearAtoms atoms;
-    work.field.collect_near({vertices[v], vertices[v]}, atoms);
-    points.emplace_back(std::move(atoms), vertices[v]);
+    work.field.collect_near({at, at}, atoms);
+    points.emplace_back(std::move(atoms), at);
   }
   for (auto _ : state) {
     for (const auto& [atoms, at] : points) benchmark::DoNotOptimize(evaluate(atoms, work.options.decay, at));
@@ -118,12 +124,9 @@ void evaluate_points(benchmark::State& state, const Workload& work) {
 
 /// The model of a cell of the spacing at a vertex, and the bounds that a proof asks it for.
 void bound_cells(benchmark::State& state, const Workload& work) {
-  constexpr std::size_t kBoxes = 1000;
   std::vector<std::pair<NearAtoms, Box>> boxes;
-  const std::vector<Point>& vertices = work.raw.mesh.vertices;
-  const std::size_t step = std::max<std::size_t>(1, vertices.size() / kBoxes);
-  for (std::size_t v = 0; v < vertices.size(); v += step) {
-    Box box{vertices[v], vertices[v]};
+  for (const Vec3& at : some_vertices(work.raw.mesh)) {
+    Box box{at, at};
     for (int k = 0; k < 3; ++k) {
       box.lo[k] -= work.options.spacing / 2;
       box.hi[k] += work.options.spacing / 2;

@@ -273,6 +273,27 @@ TEST_CASE("no root is on a lattice plane or at an end of its edge") {
   }
 }
 
+TEST_CASE("a root is on the side of a lattice plane where it is by all atoms, also those that its list leaves out") {
+  // The second atom adds some e^-14 and moves the pole of the sphere outwards by 350 units, over the plane.
+  const double plane = to_angstrom(kLattice.plane(0, 4 * kFinePerCell + 1));
+  constexpr double kShortList = 12.0;
+  for (const double gap : {1e-7, 3e-7, 5e-7}) {
+    CAPTURE(gap);
+    const double centre = plane - gap - 2.0;
+    const GaussianField field({{centre, 0, 0, 2.0, 0}, {centre + 7.06, 0, 0, 1.5, 0}}, 0.6, 1.0);
+    const CoordPoint lo = to_coord({plane - 0.31, 0, 0});
+    const Coord hi = to_coord(plane + 0.27);
+    const Box box{to_angstrom(lo), {to_angstrom(hi), 0, 0}};
+    NearAtoms near;
+    field.collect_near(box, near, kShortList);
+    REQUIRE(near.size() == 1);
+    EdgeRootFinder finder(field, kLattice);
+    const auto roots = finder.find(near, LocalModel(near, field.decay(), box), 0, lo, hi);
+    REQUIRE(roots.size() == 1);
+    CHECK((to_angstrom(roots[0].point.position[0]) > plane) == (gap < 3.5e-7));
+  }
+}
+
 TEST_CASE("is_inside is right at every point, near the surface too") {
   const std::uint64_t seed = 54;
   CAPTURE(seed);
