@@ -93,10 +93,10 @@ class BrickTracer {
   }
 
   void add_roots(const CellStore::Place& place, int axis, int side) {
-    const auto roots = store_.edge_roots(place, axis);
-    if (roots.empty()) return;
-    std::uint32_t vertex = store_.first_vertex(place, axis);
-    for (const EdgeRoot& root : roots) roots_.push_back({vertex++, root.point.position, side, root.side});
+    const VertexRange roots = store_.edge_roots(place, axis);
+    for (std::uint32_t v = roots.first; v < roots.first + roots.count; ++v) {
+      roots_.push_back({v, store_.root(v).position, side, store_.rise(v)});
+    }
   }
 
   const Lattice& lattice_;
@@ -114,14 +114,14 @@ constexpr int kFinestForNormals = 5;
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const FoldCellMap& folds, const std::vector<SurfacePoint>& points, double least_corner_cosine)
+              const FoldCellMap& folds, double least_corner_cosine)
       : field_(field),
         lattice_(lattice),
         store_(store),
         folds_(folds),
-        points_(points),
+        points_(store, split),
         least_corner_cosine_(least_corner_cosine),
-        collector_(lattice, store, split, points),
+        collector_(lattice, store, split),
         triangulator_(field),
         fold_triangulator_(field) {}
 
@@ -189,31 +189,13 @@ class CellPatcher {
   const Lattice& lattice_;
   const CellStore& store_;
   const FoldCellMap& folds_;
-  const std::vector<SurfacePoint>& points_;
+  VertexPoints points_;
   double least_corner_cosine_;
   NearAtoms atoms_;
   LoopCollector collector_;
   PatchTriangulator triangulator_;
   FoldTriangulator fold_triangulator_;
 };
-
-/// All vertices but those inside cells, by number.
-std::vector<SurfacePoint> collect_points(const CellStore& store, const SplitLattice& split, int threads) {
-  const std::vector<Brick>& bricks = store.bricks();
-  std::vector<SurfacePoint> points;
-  const std::size_t count = bricks.empty() ? 0 : bricks.back().first_face_vertex + bricks.back().face_points.size();
-  points.reserve(count + count / 32);  // the few vertices inside cells come behind, without a second array
-  points.resize(count);
-  const auto at = [&](std::uint32_t vertex) { return points.begin() + static_cast<std::ptrdiff_t>(vertex); };
-  parallel_for(bricks.size(), threads, [&](std::size_t i) {
-    const Brick& brick = bricks[i];
-    std::transform(brick.roots.begin(), brick.roots.end(), at(brick.first_vertex),
-                   [](const EdgeRoot& root) { return root.point; });
-    std::copy(brick.face_points.begin(), brick.face_points.end(), at(brick.first_face_vertex));
-  });
-  std::copy(split.points().begin(), split.points().end(), at(store.root_vertices()));
-  return points;
-}
 
 std::vector<std::uint32_t> flags_of(const Brick& brick) {
   std::vector<std::uint32_t> state;
@@ -251,10 +233,9 @@ void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
   }
 }
 
-bool CellTriangulator::must_be_redone(const SplitLattice& split, const LevelZeroTracer& faces,
-                                      std::uint32_t brick) const {
+bool CellTriangulator::sees_new_faces(const LevelZeroTracer& faces, std::uint32_t brick) const {
   // The faces of a cell are its own low ones and those of the next cell along each axis.
-  if (faces.is_new(brick) || split.is_changed(brick)) return true;
+  if (faces.is_new(brick)) return true;
   const BrickIndex index = store_.bricks()[brick].index;
   for (int axis = 0; axis < 3; ++axis) {
     BrickIndex next = index;
@@ -278,18 +259,17 @@ void CellTriangulator::renumber_face_points(PatchedCells& cells) const {
 PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
                                            const LevelZeroTracer& faces, int threads) {
   PatchOutcome outcome;
-  std::vector<SurfacePoint>& points = outcome.surface.points;
-  points = collect_points(store_, split, threads);
-
   const std::size_t bricks = store_.bricks().size();
   const bool is_first = patched_.empty();
+  const std::vector<bool> is_changed = split.changed_bricks();
   patched_.resize(bricks + split.cells().size());
   parallel_for_workers(patched_.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, points, least_corner_cosine_)](std::size_t task) mutable {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, least_corner_cosine_)](std::size_t task) mutable {
       PatchedCells& result = patched_[task];
       if (task < bricks) {
         const auto brick = static_cast<std::uint32_t>(task);
-        const bool is_kept = !is_first && result.failed.empty() && !must_be_redone(split, faces, brick);
+        const bool is_kept =
+            !is_first && result.failed.empty() && !is_changed[brick] && !sees_new_faces(faces, brick);
         if (is_kept) return renumber_face_points(result);
         result = {};
         const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
@@ -313,7 +293,19 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
   return outcome;
 }
 
-void CellTriangulator::join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) && {
+SurfaceMesh CellTriangulator::join(CellStore& store, const SplitLattice& split, int threads) && {
+  std::vector<SurfacePoint> face_points;
+  for (const Brick& brick : store.bricks()) {
+    face_points.insert(face_points.end(), brick.face_points.begin(), brick.face_points.end());
+  }
+  std::size_t inner_points = 0;
+  for (const PatchedCells& cells : patched_) inner_points += cells.points.size();
+  SurfaceMesh surface;
+  surface.points = store.release_roots();
+  surface.points.reserve(surface.points.size() + split.points().size() + face_points.size() + inner_points);
+  surface.points.insert(surface.points.end(), split.points().begin(), split.points().end());
+  surface.points.insert(surface.points.end(), face_points.begin(), face_points.end());
+  std::vector<std::uint32_t> dead_vertices = split.dead_vertices();
   std::sort(dead_vertices.begin(), dead_vertices.end());
   for (std::size_t i = 0; i < dead_vertices.size(); ++i) {
     // The living ones from a dead one to the next move down by as many as are dead before them.
@@ -344,6 +336,7 @@ void CellTriangulator::join(SurfaceMesh& surface, std::vector<std::uint32_t> dea
     std::copy(cells.points.begin(), cells.points.end(), surface.points.begin() + static_cast<std::ptrdiff_t>(base));
     cells = {};
   });
+  return surface;
 }
 
 }  // namespace gaussmesh

@@ -37,7 +37,6 @@ class LevelZeroTracer {
 
 /// What triangulating the cells gave.
 struct PatchOutcome {
-  SurfaceMesh surface;
   std::size_t fold_cells = 0;    ///< cells cut along folds
   std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };
@@ -59,16 +58,16 @@ class CellTriangulator {
                    double least_corner_cosine)
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
-  /// All curves have been traced. When no cell failed, this is the last call, and join() makes the surface.
+  /// All curves have been traced. When no cell failed, this is the last call, and join() makes the surface of what
+  /// it kept.
   PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const LevelZeroTracer& faces,
                            int threads);
 
-  /// Adds the triangles, and the vertices inside cells, to the points that triangulate() gave. Cells and curves are not
-  /// needed any more, and may be gone.
-  void join(SurfaceMesh& surface, std::vector<std::uint32_t> dead_vertices, int threads) &&;
+  /// The surface of all cells. What `store` had is gone then.
+  SurfaceMesh join(CellStore& store, const SplitLattice& split, int threads) &&;
 
  private:
-  bool must_be_redone(const SplitLattice& split, const LevelZeroTracer& faces, std::uint32_t brick) const;
+  bool sees_new_faces(const LevelZeroTracer& faces, std::uint32_t brick) const;
   void renumber_face_points(PatchedCells& cells) const;
 
   const GaussianField& field_;

@@ -13,9 +13,11 @@ namespace {
 class BrickBuilder {
  public:
   BrickBuilder(const GaussianField& field, const Lattice& lattice)
-      : lattice_(lattice), walker_(field, lattice), roots_(field, lattice) {}
+      : lattice_(lattice), walker_(field, lattice), finder_(field, lattice) {}
 
-  Brick build(const BrickIndex& index) {
+  /// @param roots  gets those of the brick
+  Brick build(const BrickIndex& index, std::vector<EdgeRoot>& roots) {
+    roots_ = &roots;
     Brick brick;
     brick.index = index;
     brick.boxes_by_level = walker_.boxes_by_level();
@@ -27,7 +29,7 @@ class BrickBuilder {
       brick.boxes_by_level[i] = walker_.boxes_by_level()[i] - brick.boxes_by_level[i];
     }
     brick.cells.shrink_to_fit();
-    brick.roots.shrink_to_fit();
+    roots.shrink_to_fit();
     return brick;
   }
 
@@ -39,18 +41,18 @@ class BrickBuilder {
       cell.axis = static_cast<std::int8_t>(found.certificate.axis);
       cell.sign = static_cast<std::int8_t>(found.certificate.sign);
     }
-    cell.first_root = static_cast<std::uint32_t>(brick.roots.size());
+    cell.first_root = static_cast<std::uint32_t>(roots_->size());
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {
       const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
       const bool is_monotone = cell.sign != 0 && cell.axis == axis;
       const EdgeEnds ends{found.lowest, found.next[axis], is_monotone};
       cell.face[axis] = face_certificate(found, axis);
-      if (roots_.is_free(found.model, axis, lo, hi, ends)) continue;
-      const auto roots = roots_.find(found.atoms, found.model, axis, lo, hi, ends);
+      if (finder_.is_free(found.model, axis, lo, hi, ends)) continue;
+      const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
       cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());
-      brick.roots.insert(brick.roots.end(), roots.begin(), roots.end());
+      roots_->insert(roots_->end(), roots.begin(), roots.end());
     }
     brick.cells.push_back(cell);
   }
@@ -67,7 +69,8 @@ class BrickBuilder {
 
   const Lattice& lattice_;
   BrickWalker walker_;
-  EdgeRootFinder roots_;
+  EdgeRootFinder finder_;
+  std::vector<EdgeRoot>* roots_ = nullptr;
 };
 
 }  // namespace
@@ -81,24 +84,33 @@ std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);
   std::vector<Brick> all(found.size());
+  std::vector<std::vector<EdgeRoot>> roots(found.size());
   parallel_for_workers(found.size(), threads, 1, [&] {
-    return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };
+    return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable {
+      all[i] = builder.build(found[i], roots[i]);
+    };
+  });
+  std::uint32_t vertices = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].first_vertex = vertices;
+    vertices += static_cast<std::uint32_t>(roots[i].size());
+  }
+  roots_.reserve(vertices + vertices / 16);  // the other vertices come behind, without a second array
+  roots_.resize(vertices);
+  rises_.resize(vertices);
+  parallel_for(all.size(), threads, [&](std::size_t i) {
+    std::uint32_t vertex = all[i].first_vertex;
+    for (const EdgeRoot& root : roots[i]) {
+      roots_[vertex] = root.point;
+      rises_[vertex++] = root.side;
+    }
+    roots[i] = std::vector<EdgeRoot>();
   });
   for (Brick& brick : all) {
     if (brick.cells.empty()) continue;
     by_index_.emplace(brick.index, static_cast<std::uint32_t>(bricks_.size()));
-    brick.first_vertex = root_vertices_;
-    root_vertices_ += static_cast<std::uint32_t>(brick.roots.size());
     bricks_.push_back(std::move(brick));
   }
-}
-
-std::size_t CellStore::uncertified_cells() const {
-  std::size_t count = 0;
-  for (const Brick& brick : bricks_) {
-    for (const SurfaceCell& cell : brick.cells) count += cell.sign == 0;
-  }
-  return count;
 }
 
 std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32_t hint) const {
@@ -136,17 +148,11 @@ FineIndex CellStore::lowest_corner(const Place& place) const {
   return lo;
 }
 
-std::span<const EdgeRoot> CellStore::edge_roots(const Place& place, int axis) const {
+VertexRange CellStore::edge_roots(const Place& place, int axis) const {
   const SurfaceCell& c = cell(place);
-  std::size_t first = c.first_root;
+  std::uint32_t first = bricks_[place.brick].first_vertex + c.first_root;
   for (int k = 0; k < axis; ++k) first += c.root_count[k];
-  return {bricks_[place.brick].roots.data() + first, c.root_count[axis]};
-}
-
-std::uint32_t CellStore::first_vertex(const Place& place, int axis) const {
-  const auto roots = edge_roots(place, axis);
-  return bricks_[place.brick].first_vertex +
-         static_cast<std::uint32_t>(roots.data() - bricks_[place.brick].roots.data());
+  return {first, c.root_count[axis]};
 }
 
 std::span<const Link> CellStore::face_links(const Place& place, int axis) const {

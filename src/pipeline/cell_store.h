@@ -23,7 +23,7 @@ struct SurfaceCell {
   std::array<FaceCertificate, 3> face{};
   std::array<std::uint8_t, 3> root_count{};
   std::array<std::uint8_t, 3> link_count{};
-  std::uint32_t first_root = 0;     ///< roots on the edges along x, y, z, one after the other
+  std::uint32_t first_root = 0;     ///< roots on the edges along x, y, z, one after the other, counted in the brick
   std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
 };
 
@@ -32,7 +32,6 @@ struct Brick {
   BrickIndex index{};
   std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
   std::vector<SurfaceCell> cells;            ///< by `local`
-  std::vector<EdgeRoot> roots;
   std::vector<Link> links;
   std::vector<SurfacePoint> face_points;     ///< vertices inside faces, those of `links` from kLocalVertex on
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
@@ -40,21 +39,24 @@ struct Brick {
   std::vector<std::size_t> boxes_by_level;
 };
 
-/// A root as the faces round its edge see it.
-struct VertexRoot {
-  std::uint32_t vertex = 0;
-  CoordPoint position{};
-  int rise = 0;
+/// Vertices with numbers that follow each other.
+struct VertexRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
 };
 
-/// All cells of level 0.
+/// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell.
 class CellStore {
  public:
   /// Finds the cells, their certificates, the certificates of their faces and the roots on their edges.
   CellStore(const GaussianField& field, const Lattice& lattice, int threads);
 
-  /// Gives all cells back, with their roots and curves, when nobody asks for them any more.
-  void clear() { bricks_ = std::vector<Brick>(); }
+  /// Gives all cells and curves back, when nobody asks for them any more. @return the roots, which are vertices
+  std::vector<SurfacePoint> release_roots() {
+    bricks_ = std::vector<Brick>();
+    rises_ = std::vector<std::int8_t>();
+    return std::move(roots_);
+  }
 
   std::vector<Brick>& bricks() { return bricks_; }
   const std::vector<Brick>& bricks() const { return bricks_; }
@@ -72,14 +74,14 @@ class CellStore {
   const SurfaceCell& cell(const Place& place) const { return bricks_[place.brick].cells[place.cell]; }
   FineIndex lowest_corner(const Place& place) const;
 
-  /// Roots on the edge of level 0 that begins at `lo`.
-  std::span<const EdgeRoot> edge_roots(const Place& place, int axis) const;
-  std::uint32_t first_vertex(const Place& place, int axis) const;
+  /// Roots on an edge at the lowest corner of a cell.
+  VertexRange edge_roots(const Place& place, int axis) const;
+  const SurfacePoint& root(std::uint32_t vertex) const { return roots_[vertex]; }
+  int rise(std::uint32_t vertex) const { return rises_[vertex]; }  ///< EdgeRoot::side
   /// The links in a face; a vertex inside it is numbered within the brick, from kLocalVertex on.
   std::span<const Link> face_links(const Place& place, int axis) const;
 
-  std::uint32_t root_vertices() const { return root_vertices_; }
-  std::size_t uncertified_cells() const;
+  std::uint32_t root_vertices() const { return static_cast<std::uint32_t>(roots_.size()); }
 
  private:
   struct IndexHash {
@@ -87,7 +89,8 @@ class CellStore {
   };
   std::vector<Brick> bricks_;
   std::unordered_map<BrickIndex, std::uint32_t, IndexHash> by_index_;
-  std::uint32_t root_vertices_ = 0;
+  std::vector<SurfacePoint> roots_;
+  std::vector<std::int8_t> rises_;
 };
 
 }  // namespace gaussmesh

@@ -1,6 +1,7 @@
 #include "pipeline/find_fold_cells.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -30,7 +31,7 @@ bool goes_round_surface(const LeafCell& leaf, const Loop& loop) {
 /// The surface in one cell, put together from the discs of the smaller cells in it.
 class CellSurface {
  public:
-  explicit CellSurface(const std::vector<SurfacePoint>& points) : points_(points) {}
+  explicit CellSurface(const VertexPoints& points) : points_(points) {}
 
   void add_disc(std::span<const Link> links) {
     for (const Link& link : links) {
@@ -136,7 +137,7 @@ class CellSurface {
     return component.fold_axis >= 0;
   }
 
-  const std::vector<SurfacePoint>& points_;
+  const VertexPoints& points_;
   std::unordered_map<std::uint32_t, int> index_;
   std::vector<std::uint32_t> vertices_;
   std::vector<int> parent_;
@@ -145,21 +146,10 @@ class CellSurface {
   std::map<int, int> boundary_;             ///< links that are on the boundary of the cell
 };
 
-/// All vertices on edges and on faces of smaller cells, by number.
-std::vector<SurfacePoint> lattice_points(const CellStore& store, const SplitLattice& split) {
-  std::vector<SurfacePoint> points;
-  points.reserve(split.next_vertex());
-  for (const Brick& brick : store.bricks()) {
-    for (const EdgeRoot& root : brick.roots) points.push_back(root.point);
-  }
-  points.insert(points.end(), split.points().begin(), split.points().end());
-  return points;
-}
-
 class FoldSearch {
  public:
   FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split)
-      : lattice_(lattice), store_(store), split_(split), points_(lattice_points(store, split)) {
+      : lattice_(lattice), store_(store), split_(split), points_(store, split) {
     for (const SplitCell& cell : split.cells()) {
       for (const LeafCell& leaf : cell.leaves) leaves_.emplace(leaf.key, &leaf);
     }
@@ -180,7 +170,7 @@ class FoldSearch {
  private:
   std::optional<FoldCell> analyse(const CellKey& key) const {
     CellSurface surface(points_);
-    LoopCollector collector(lattice_, store_, split_, points_);
+    LoopCollector collector(lattice_, store_, split_);
     if (!add_leaves(key, collector, surface)) return std::nullopt;
     auto components = surface.components(lattice_.point(key.lo), lattice_.point(cell_hi(key)));
     if (!components) return std::nullopt;
@@ -211,27 +201,63 @@ class FoldSearch {
   const Lattice& lattice_;
   const CellStore& store_;
   const SplitLattice& split_;
-  std::vector<SurfacePoint> points_;
+  VertexPoints points_;
   std::unordered_map<CellKey, const LeafCell*, CellKeyHash> leaves_;
 };
 
+/// Cells that are looked at together: those next to each other share edges and faces.
+constexpr std::size_t kBatch = 32;
+
+/// What was found in one batch.
+struct BatchResult {
+  std::vector<FoldCell> folds;
+  std::vector<UncertifiedPlace> uncertified;
+  int finest_level = 0;
+};
+
+BatchResult search_batch(const GaussianField& field, const Lattice& lattice, const CellStore& store,
+                         std::span<const CellKey> cells) {
+  BatchResult result;
+  const FoldCellMap none;
+  SplitLattice split(field, lattice, store, none);
+  split.split(cells, 1);
+  for (const SplitCell& cell : split.cells()) {
+    for (const LeafCell& leaf : cell.leaves) result.finest_level = std::max(result.finest_level, leaf.key.level);
+  }
+  result.uncertified = split.uncertified();
+  if (!result.uncertified.empty()) return result;
+  const FoldSearch search(lattice, store, split);
+  for (const CellKey& cell : cells) search.search(cell, result.folds);
+  return result;
+}
+
 }  // namespace
 
-FoldCellMap find_fold_cells(const Lattice& lattice, const CellStore& store, const SplitLattice& split, int threads) {
+FoldSearchResult find_fold_cells(const GaussianField& field, const Lattice& lattice, const CellStore& store,
+                                 int threads) {
   std::vector<CellKey> cells;
   for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
     const auto& in_brick = store.bricks()[b].cells;
     for (std::uint32_t i = 0; i < in_brick.size(); ++i) {
-      if (in_brick[i].split) cells.push_back({store.lowest_corner({b, i}), 0});
+      if (in_brick[i].sign == 0) cells.push_back({store.lowest_corner({b, i}), 0});
     }
   }
-  const FoldSearch search(lattice, store, split);
-  std::vector<std::vector<FoldCell>> found(cells.size());
-  parallel_for(cells.size(), threads, [&](std::size_t i) { search.search(cells[i], found[i]); });
-  FoldCellMap result;
-  for (auto& list : found) {
-    for (FoldCell& cell : list) result.emplace(cell.key, std::move(cell));
+  std::vector<BatchResult> found((cells.size() + kBatch - 1) / kBatch);
+  parallel_for(found.size(), threads, [&](std::size_t i) {
+    const std::size_t first = i * kBatch, last = std::min(cells.size(), first + kBatch);
+    found[i] = search_batch(field, lattice, store, std::span(cells).subspan(first, last - first));
+  });
+  FoldSearchResult result;
+  for (BatchResult& batch : found) {
+    for (FoldCell& cell : batch.folds) {
+      const CellKey key = cell.key;
+      result.folds.emplace(key, std::move(cell));
+    }
+    result.uncertified.insert(result.uncertified.end(), batch.uncertified.begin(), batch.uncertified.end());
+    result.finest_level = std::max(result.finest_level, batch.finest_level);
   }
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(result.to_split),
+               [&](const CellKey& key) { return !result.folds.contains(key); });
   return result;
 }
 

@@ -6,6 +6,15 @@
 
 namespace gaussmesh {
 
+const SurfacePoint& VertexPoints::face_point(std::uint32_t vertex) const {
+  const std::vector<Brick>& bricks = store_.bricks();
+  const auto next = std::upper_bound(bricks.begin(), bricks.end(), vertex, [](std::uint32_t v, const Brick& brick) {
+    return v < brick.first_face_vertex;
+  });
+  const Brick& brick = *(next - 1);
+  return brick.face_points[vertex - brick.first_face_vertex];
+}
+
 std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t hint) {
   links_.clear();
   for (int k = 0; k < 3; ++k) {

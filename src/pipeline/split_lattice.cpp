@@ -45,24 +45,7 @@ unsigned fold_axes_of(const FoldCell& cell) {
 
 }  // namespace
 
-SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                           const FoldCellMap& folds, int threads)
-    : field_(field), lattice_(lattice), store_(store), folds_(folds) {
-  std::vector<CellKey> uncertified;
-  for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
-    std::vector<SurfaceCell>& cells = store.bricks()[b].cells;
-    for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      cells[i].split = false;
-      cells[i].divided_faces = 0;
-      if (cells[i].sign != 0) continue;
-      const CellKey key{store.lowest_corner({b, i}), 0};
-      if (!folds.contains(key)) uncertified.push_back(key);
-    }
-  }
-  split(uncertified, threads);
-}
-
-void SplitLattice::split(const std::vector<CellKey>& cells, int threads) {
+void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
     return
@@ -72,7 +55,7 @@ void SplitLattice::split(const std::vector<CellKey>& cells, int threads) {
         };
   });
   for (SplitCell& cell : cells_) cell.is_changed = false;
-  changed_bricks_.assign(store_.bricks().size(), false);
+  newly_split_.clear();
   const std::size_t first_cell = cells_.size();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     Branch& branch = branches[i];
@@ -82,23 +65,18 @@ void SplitLattice::split(const std::vector<CellKey>& cells, int threads) {
       cell_of_.push_back(static_cast<std::uint32_t>(cells_.size()));
       drop_faces(key);
     }
+    newly_split_.insert(newly_split_.end(), branch.split.begin(), branch.split.end());
     uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
     cells_.push_back({cells[i], std::move(branch.leaves), true});
   }
-  for (const Branch& branch : branches) {
-    for (const CellKey& key : branch.split) mark_changed_beside(key);
-  }
-  mark_level_zero();
+  for (const CellKey& key : newly_split_) mark_changed_beside(key);
   if (!uncertified_.empty()) return;
   find_edge_roots(first_cell, threads);
   trace_faces(first_cell, threads);
 }
 
 void SplitLattice::take_from_leaves(const CellKey& key) {
-  if (key.level == 0) {
-    store_.cell(*store_.find(key.lo)).split = true;
-    return;
-  }
+  if (key.level == 0) return;
   SplitCell& parent = cells_[cell_of_[*split_.find(cell_around(key, key.level - 1))]];
   std::erase_if(parent.leaves, [&](const LeafCell& leaf) { return leaf.key == key; });
   parent.is_changed = true;
@@ -118,47 +96,64 @@ void SplitLattice::drop_faces(const CellKey& key) {
   }
 }
 
-/// The cells that share faces with a split one see its curves, unless they are smaller.
-void SplitLattice::mark_changed_beside(const CellKey& key) {
+std::array<CellKey, 6> SplitLattice::cells_beside(const CellKey& key) {
+  std::array<CellKey, 6> beside;
   for (int axis = 0; axis < 3; ++axis) {
-    for (const std::int64_t by : {-fine_size(key.level), fine_size(key.level)}) {
-      const CellKey beside{moved(key.lo, axis, by), key.level};
-      if (split_.contains(beside)) continue;
-      std::optional<std::uint32_t> around;
-      for (int level = key.level - 1; level >= 0 && !around; --level)
-        around = split_.find(cell_around(beside, level));
-      if (around) {
-        cells_[cell_of_[*around]].is_changed = true;
-      } else if (const auto place = store_.find(cell_around(beside, 0).lo)) {
-        changed_bricks_[place->brick] = true;
-      }
-    }
+    beside[2 * axis] = {moved(key.lo, axis, -fine_size(key.level)), key.level};
+    beside[2 * axis + 1] = {moved(key.lo, axis, fine_size(key.level)), key.level};
   }
-  if (key.level == 0) changed_bricks_[store_.find(key.lo)->brick] = true;
+  return beside;
 }
 
-void SplitLattice::mark_level_zero() {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const CellKey& key = cells_[i].key;
-    if (key.level > 0) continue;
-    const auto place = store_.find(key.lo);
-    store_.cell(*place).divided_faces = 7;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto next = store_.find(moved(key.lo, axis, kFinePerCell), place->brick);
-      if (next) store_.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
+/// The smallest split cell that is larger than the one asked for and contains it, by its number in split_.
+std::optional<std::uint32_t> SplitLattice::find_split_around(const CellKey& key) const {
+  std::optional<std::uint32_t> around;
+  for (int level = key.level - 1; level >= 0 && !around; --level) around = split_.find(cell_around(key, level));
+  return around;
+}
+
+/// The cells that share faces with a split one see its curves, unless they are smaller.
+void SplitLattice::mark_changed_beside(const CellKey& key) {
+  for (const CellKey& beside : cells_beside(key)) {
+    if (split_.contains(beside)) continue;
+    if (const auto around = find_split_around(beside)) cells_[cell_of_[*around]].is_changed = true;
+  }
+}
+
+std::vector<bool> SplitLattice::changed_bricks() const {
+  std::vector<bool> is_changed(store_.bricks().size(), false);
+  for (const CellKey& key : newly_split_) {
+    if (key.level == 0) is_changed[store_.find(key.lo)->brick] = true;
+    for (const CellKey& beside : cells_beside(key)) {
+      if (split_.contains(beside) || find_split_around(beside)) continue;
+      if (const auto place = store_.find(cell_around(beside, 0).lo)) is_changed[place->brick] = true;
     }
   }
-  for (Brick& brick : store_.bricks()) {
+  return is_changed;
+}
+
+void SplitLattice::mark_cells(CellStore& store) const {
+  for (const SplitCell& cell : cells_) {
+    if (cell.key.level > 0) continue;
+    const auto place = store.find(cell.key.lo);
+    store.cell(*place).split = true;
+    store.cell(*place).divided_faces = 7;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto next = store.find(moved(cell.key.lo, axis, kFinePerCell), place->brick);
+      if (next) store.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
+    }
+  }
+  for (Brick& brick : store.bricks()) {
     for (SurfaceCell& cell : brick.cells) cell.fold_axes = {};
   }
   for (const auto& [key, cell] : folds_) {
     if (key.level > 0 || split_.contains(key)) continue;
     const auto axes = static_cast<std::uint8_t>(fold_axes_of(cell));
-    const auto place = store_.find(key.lo);
+    const auto place = store.find(key.lo);
     for (int axis = 0; axis < 3; ++axis) {
-      store_.cell(*place).fold_axes[axis] |= axes;
-      const auto next = store_.find(moved(key.lo, axis, kFinePerCell), place->brick);
-      if (next) store_.cell(*next).fold_axes[axis] |= axes;
+      store.cell(*place).fold_axes[axis] |= axes;
+      const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick);
+      if (next) store.cell(*next).fold_axes[axis] |= axes;
     }
   }
 }
@@ -268,8 +263,10 @@ void SplitLattice::add_roots_on(int axis, const FineIndex& lo, int level, int si
   if (edge.level == 0) {
     const auto place = store_.find(edge.lo);
     if (!place) return;
-    std::uint32_t vertex = store_.first_vertex(*place, axis);
-    for (const EdgeRoot& root : store_.edge_roots(*place, axis)) add(vertex++, root.point.position, root.side);
+    const VertexRange roots_there = store_.edge_roots(*place, axis);
+    for (std::uint32_t v = roots_there.first; v < roots_there.first + roots_there.count; ++v) {
+      add(v, store_.root(v).position, store_.rise(v));
+    }
   } else if (const auto number = edges_.find(edge)) {
     const EdgeRoots& found = edge_roots_[*number];
     for (std::uint32_t i = found.first; i < found.first + found.count; ++i) {

@@ -40,22 +40,25 @@ struct SplitCell {
 /// split in rounds: what was found in one is kept in the next, with the numbers of its vertices.
 class SplitLattice {
  public:
-  /// Splits every cell that has no certificate and is not in `folds`.
-  SplitLattice(const GaussianField& field, const Lattice& lattice, CellStore& store, const FoldCellMap& folds,
-               int threads);
+  /// No cell is split at first.
+  SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store, const FoldCellMap& folds)
+      : field_(field), lattice_(lattice), store_(store), folds_(folds) {}
 
-  /// Splits cells that are of level 0 or leaves, each as often as it needs; marks them, and the faces that smaller
-  /// cells take over or that need fold points, in the store. Finds the roots and curves of the new leaves, unless
-  /// there are uncertified places.
-  void split(const std::vector<CellKey>& cells, int threads);
+  /// Splits cells that are of level 0 or leaves, each as often as it needs; cells in `folds` keep their size. Finds
+  /// the roots and curves of the new leaves, unless there are uncertified places.
+  void split(std::span<const CellKey> cells, int threads);
+
+  /// Marks in the store which cells of level 0 are split, and their faces that smaller cells have taken over or that
+  /// need fold points.
+  void mark_cells(CellStore& store) const;
+
+  /// By brick, whether the last call of split() changed curves round unsplit cells of level 0.
+  std::vector<bool> changed_bricks() const;
 
   const std::vector<SplitCell>& cells() const { return cells_; }
   std::size_t split_cells() const { return split_.size(); }
   const std::vector<UncertifiedPlace>& uncertified() const { return uncertified_; }
   bool is_split(const CellKey& key) const { return split_.contains(key); }
-
-  /// Whether the last call of split() changed curves round unsplit cells of level 0 in a brick.
-  bool is_changed(std::uint32_t brick) const { return changed_bricks_[brick]; }
 
   /// Number of the first vertex that is neither a root of level 0 nor of these cells.
   std::uint32_t next_vertex() const { return first_vertex() + static_cast<std::uint32_t>(points_.size()); }
@@ -113,8 +116,9 @@ class SplitLattice {
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void take_from_leaves(const CellKey& key);
   void drop_faces(const CellKey& key);
+  std::optional<std::uint32_t> find_split_around(const CellKey& key) const;
   void mark_changed_beside(const CellKey& key);
-  void mark_level_zero();
+  static std::array<CellKey, 6> cells_beside(const CellKey& key);
   unsigned fold_axes(const LatticeKey& face) const;
   void find_edge_roots(std::size_t first_cell, int threads);
   void trace_faces(std::size_t first_cell, int threads);
@@ -124,13 +128,13 @@ class SplitLattice {
 
   const GaussianField& field_;
   const Lattice& lattice_;
-  CellStore& store_;
+  const CellStore& store_;
   const FoldCellMap& folds_;
   std::vector<SplitCell> cells_;
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
-  std::vector<bool> changed_bricks_;
+  std::vector<CellKey> newly_split_;  ///< by the last call of split()
   KeyIndex<LatticeKey, LatticeKeyHash> edges_, faces_;
   std::vector<EdgeRoots> edge_roots_;  ///< by number of the edge
   std::vector<FaceLinks> face_links_;  ///< by number of the face

@@ -52,22 +52,21 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
   CellStore store(field, lattice, threads);
   add_box_counts(store, lattice, result);
   finished("boxes and roots");
-  FoldCellMap folds;
-  if (store.uncertified_cells() > 0) {
-    const FoldCellMap none;
-    const SplitLattice proof(field, lattice, store, none, threads);
-    note_leaves(proof, lattice, result);
-    if (!proof.uncertified().empty()) {
-      result.uncertified = proof.uncertified();
-      return result;
-    }
-    folds = find_fold_cells(lattice, store, proof, threads);
-    finished("folds");
+  const FoldSearchResult search = find_fold_cells(field, lattice, store, threads);
+  const double finest = lattice.cell_size() * std::ldexp(1.0, -search.finest_level);
+  result.smallest_box = std::min(result.smallest_box, finest);
+  finished("folds");
+  if (!search.uncertified.empty()) {
+    result.uncertified = search.uncertified;
+    return result;
   }
   LevelZeroTracer faces(field, lattice, store);
   CellTriangulator cells(field, lattice, store, least_corner_cosine);
-  SplitLattice split(field, lattice, store, folds, threads);
+  SplitLattice split(field, lattice, store, search.folds);
+  std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
+    split.split(to_split, threads);
+    split.mark_cells(store);
     note_leaves(split, lattice, result);
     if (!split.uncertified().empty()) {
       result.uncertified = split.uncertified();
@@ -75,14 +74,11 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     }
     faces.trace(split.next_vertex(), threads);
     finished("curves");
-    PatchOutcome outcome = cells.triangulate(split, folds, faces, threads);
+    PatchOutcome outcome = cells.triangulate(split, search.folds, faces, threads);
     if (outcome.failed.empty()) {
       result.cells_split = split.split_cells();
       result.cells_cut_by_folds = outcome.fold_cells;
-      std::vector<std::uint32_t> dead_vertices = split.dead_vertices();
-      store.clear();
-      result.surface = std::move(outcome.surface);
-      std::move(cells).join(result.surface, std::move(dead_vertices), threads);
+      result.surface = std::move(cells).join(store, split, threads);
       finished("patches");
       return result;
     }
@@ -90,7 +86,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     for (const CellKey& cell : outcome.failed) {
       if (cell.level == kMaxLevel) throw LatticeDegenerate(to_angstrom(lattice.point(cell.lo)));
     }
-    split.split(outcome.failed, threads);
+    to_split = std::move(outcome.failed);
   }
   throw InternalError("cells were split again and again without an embedded triangulation");
 }
