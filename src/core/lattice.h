@@ -67,7 +67,9 @@ inline FineIndex moved(FineIndex n, int axis, std::int64_t by) {
 struct CellKey {
   FineIndex lo{};
   int level = 0;
-  bool operator==(const CellKey&) const = default;
+  bool operator==(const CellKey& other) const {  // without a call of memcmp(), which costs more than the rest
+    return lo[0] == other.lo[0] && lo[1] == other.lo[1] && lo[2] == other.lo[2] && level == other.level;
+  }
 };
 
 inline FineIndex cell_hi(const CellKey& cell) {

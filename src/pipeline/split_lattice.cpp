@@ -23,6 +23,10 @@ std::int64_t round_down(std::int64_t n, std::int64_t size) {
 /// many atoms; in smaller ones, near singular places, atoms left out may decide.
 constexpr int kLastPlainLevel = 3;
 
+/// Split cells whose edges and faces are looked at together: most of them turn out to have no surface, and are not
+/// kept.
+constexpr std::size_t kCellsAtOnce = 4096;
+
 /// Edges or faces that a thread takes at a time, near one cell.
 constexpr std::uint32_t kTaskSize = 64;
 
@@ -71,8 +75,11 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   }
   for (const CellKey& key : newly_split_) mark_changed_beside(key);
   if (!uncertified_.empty()) return;
-  find_edge_roots(first_cell, threads);
-  trace_faces(first_cell, threads);
+  for (std::size_t first = first_cell; first < cells_.size(); first += kCellsAtOnce) {
+    const std::span<const SplitCell> some = std::span(cells_).subspan(first, std::min(kCellsAtOnce, cells_.size() - first));
+    find_edge_roots(some, threads);
+    trace_faces(some, threads);
+  }
 }
 
 void SplitLattice::take_from_leaves(const CellKey& key) {
@@ -203,50 +210,50 @@ SplitLattice::LatticeKey SplitLattice::whole_edge(int axis, const FineIndex& lo)
   return lattice_key(moved(lo, axis, round_down(lo[axis], fine_size(level)) - lo[axis]), axis, level);
 }
 
-void SplitLattice::find_edge_roots(std::size_t first_cell, int threads) {
+void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads) {
+  KeyIndex<LatticeKey, LatticeKeyHash> edges;
+  std::vector<std::uint8_t> is_monotone;
   std::vector<Task> tasks;
-  for (std::size_t c = first_cell; c < cells_.size(); ++c) {
-    const std::size_t first_edge = edges_.size();
-    for (const LeafCell& leaf : cells_[c].leaves) {
+  for (const SplitCell& cell : cells) {
+    const std::size_t first_edge = edges.size();
+    for (const LeafCell& leaf : cell.leaves) {
       const std::int64_t size = fine_size(leaf.key.level);
       for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
           const FineIndex lo = moved(moved(leaf.key.lo, first_axis(axis), (corner & 1) * size), second_axis(axis),
                                      (corner >> 1) * size);
           const LatticeKey edge = whole_edge(axis, lo);
-          if (edge.level == 0) continue;
-          const auto [number, is_new] = edges_.insert(edge);
-          if (is_new) edge_roots_.emplace_back();
-          if (edge.level == leaf.key.level && leaf.sign != 0 && leaf.axis == axis)
-            edge_roots_[number].is_monotone = true;
+          if (edge.level == 0 || edges_.contains(edge)) continue;
+          const auto [number, is_new] = edges.insert(edge);
+          if (is_new) is_monotone.push_back(0);
+          if (edge.level == leaf.key.level && leaf.sign != 0 && leaf.axis == axis) is_monotone[number] = 1;
         }
       }
     }
-    add_tasks(c, first_edge, edges_.size(), tasks);
+    add_tasks(cell, first_edge, edges.size(), tasks);
   }
-  const std::size_t first_edge = tasks.empty() ? edges_.size() : tasks.front().first;
-  std::vector<std::vector<EdgeRoot>> found(edges_.size() - first_edge);
+  std::vector<std::vector<EdgeRoot>> found(edges.size());
   parallel_for_workers(tasks.size(), threads, 1, [&] {
     return [&, atoms = LocalAtoms(field_), finder = EdgeRootFinder(field_, lattice_)](std::size_t t) mutable {
-      atoms.move_to(cell_box(lattice_, cells_[tasks[t].cell].key));
+      atoms.move_to(cell_box(lattice_, tasks[t].cell));
       for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
-        const LatticeKey& edge = edges_[i];
+        const LatticeKey& edge = edges[i];
         const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
         const LocalModel model(atoms.within(proof_reach(edge.level)), field_.decay(),
                                lattice_box(lattice_, edge.lo, end));
         const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
                                        lattice_.point(edge.lo), lattice_.plane(edge.axis, end[edge.axis]),
-                                       {Side::kUnknown, Side::kUnknown, edge_roots_[i].is_monotone});
-        found[i - first_edge].assign(roots.begin(), roots.end());
+                                       {Side::kUnknown, Side::kUnknown, is_monotone[i] != 0});
+        found[i].assign(roots.begin(), roots.end());
       }
     };
   });
-  for (std::size_t i = first_edge; i < edges_.size(); ++i) {
-    const std::vector<EdgeRoot>& roots = found[i - first_edge];
-    if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
-    edge_roots_[i].first = static_cast<std::uint32_t>(points_.size());
-    edge_roots_[i].count = static_cast<std::uint8_t>(roots.size());
-    for (const EdgeRoot& root : roots) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].empty()) continue;
+    edges_.insert(edges[i]);
+    edge_roots_.push_back(
+        {static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(found[i].size())});
+    for (const EdgeRoot& root : found[i]) {
       points_.push_back(root.point);
       rises_.push_back(root.side);
     }
@@ -268,7 +275,7 @@ void SplitLattice::add_roots_on(int axis, const FineIndex& lo, int level, int si
       add(v, store_.root(v).position, store_.rise(v));
     }
   } else if (const auto number = edges_.find(edge)) {
-    const EdgeRoots& found = edge_roots_[*number];
+    const VertexRange& found = edge_roots_[*number];
     for (std::uint32_t i = found.first; i < found.first + found.count; ++i) {
       add(first_vertex() + i, points_[i].position, rises_[i]);
     }
@@ -289,52 +296,55 @@ bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
   return split_.contains({lo, level}) || split_.contains({moved(lo, axis, -fine_size(level)), level});
 }
 
-void SplitLattice::trace_faces(std::size_t first_cell, int threads) {
+void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
+  KeyIndex<LatticeKey, LatticeKeyHash> faces;
+  std::vector<FaceCertificate> certificates;
   std::vector<Task> tasks;
-  for (std::size_t c = first_cell; c < cells_.size(); ++c) {
-    const std::size_t first_face = faces_.size();
-    for (const LeafCell& leaf : cells_[c].leaves) {
+  for (const SplitCell& cell : cells) {
+    const std::size_t first_face = faces.size();
+    for (const LeafCell& leaf : cell.leaves) {
       for (int axis = 0; axis < 3; ++axis) {
         for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
           const FineIndex lo = moved(leaf.key.lo, axis, by);
-          if (is_divided(axis, lo, leaf.key.level)) continue;
-          const auto [number, is_new] = faces_.insert(lattice_key(lo, axis, leaf.key.level));
-          if (is_new) face_links_.emplace_back();
+          const LatticeKey face = lattice_key(lo, axis, leaf.key.level);
+          if (is_divided(axis, lo, leaf.key.level) || faces_.contains(face)) continue;
+          const auto [number, is_new] = faces.insert(face);
+          if (is_new) certificates.push_back(kFaceUncertified);
           // The surface in a leaf is single-valued along its axis, and so is its section with a face that has the
           // axis in it.
           if (leaf.sign != 0 && leaf.axis != axis) {
-            face_links_[number].certificate = leaf.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
+            certificates[number] = leaf.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
           }
         }
       }
     }
-    add_tasks(c, first_face, faces_.size(), tasks);
+    add_tasks(cell, first_face, faces.size(), tasks);
   }
-  const std::size_t first_face = tasks.empty() ? faces_.size() : tasks.front().first;
-  std::vector<FaceCurves> curves(faces_.size() - first_face);
+  std::vector<FaceCurves> curves(faces.size());
   parallel_for_workers(tasks.size(), threads, 1, [&] {
     return [&, atoms = LocalAtoms(field_), tracer = FaceTracer(field_, lattice_),
             roots = std::vector<FaceRoot>()](std::size_t t) mutable {
-      atoms.move_to(cell_box(lattice_, cells_[tasks[t].cell].key));
+      atoms.move_to(cell_box(lattice_, tasks[t].cell));
       tracer.take_atoms_from(atoms);
       for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
-        const LatticeKey& face = faces_[i];
+        const LatticeKey& face = faces[i];
         const std::int64_t size = fine_size(face.level);
         const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
         collect_face_roots(face, roots);
         tracer.set_plain(face.level <= kLastPlainLevel);
-        curves[i - first_face] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end),
-                                              face_links_[i].certificate, roots, fold_axes(face));
+        curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), certificates[i], roots,
+                                 fold_axes(face));
       }
     };
   });
-  for (std::size_t i = first_face; i < faces_.size(); ++i) {
-    const FaceCurves& found = curves[i - first_face];
-    FaceLinks& face = face_links_[i];
-    face.first_link = static_cast<std::uint32_t>(links_.size());
-    face.link_count = static_cast<std::uint32_t>(found.links.size());
-    face.first_point = static_cast<std::uint32_t>(points_.size());
-    face.point_count = static_cast<std::uint32_t>(found.points.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const FaceCurves& found = curves[i];
+    if (found.links.empty()) continue;
+    faces_.insert(faces[i]);
+    const FaceLinks face{static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(points_.size()),
+                         static_cast<std::uint32_t>(found.links.size()),
+                         static_cast<std::uint32_t>(found.points.size())};
+    face_links_.push_back(face);
     const auto numbered = [&](std::uint32_t v) {
       return v >= kLocalVertex ? first_vertex() + face.first_point + (v - kLocalVertex) : v;
     };
@@ -344,10 +354,9 @@ void SplitLattice::trace_faces(std::size_t first_cell, int threads) {
   }
 }
 
-void SplitLattice::add_tasks(std::size_t cell, std::size_t first, std::size_t last, std::vector<Task>& tasks) {
+void SplitLattice::add_tasks(const SplitCell& cell, std::size_t first, std::size_t last, std::vector<Task>& tasks) {
   for (auto i = static_cast<std::uint32_t>(first); i < last; i += kTaskSize) {
-    tasks.push_back(
-        {static_cast<std::uint32_t>(cell), i, std::min(i + kTaskSize, static_cast<std::uint32_t>(last))});
+    tasks.push_back({cell.key, i, std::min(i + kTaskSize, static_cast<std::uint32_t>(last))});
   }
 }
 

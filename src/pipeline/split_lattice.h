@@ -77,7 +77,10 @@ class SplitLattice {
     FineIndex lo{};
     std::int8_t axis = 0;
     std::int8_t level = 0;
-    bool operator==(const LatticeKey&) const = default;
+    bool operator==(const LatticeKey& other) const {
+      return lo[0] == other.lo[0] && lo[1] == other.lo[1] && lo[2] == other.lo[2] && axis == other.axis &&
+             level == other.level;
+    }
   };
   struct LatticeKeyHash {
     std::size_t operator()(const LatticeKey& key) const {
@@ -89,21 +92,15 @@ class SplitLattice {
     std::vector<CellKey> split;
     std::vector<UncertifiedPlace> uncertified;
   };
-  struct EdgeRoots {
-    std::uint32_t first = 0;  ///< index into points_
-    std::uint8_t count = 0;
-    bool is_monotone = false;
-  };
   struct FaceLinks {
     std::uint32_t first_link = 0;
     std::uint32_t first_point = 0;  ///< index into points_
     std::uint32_t link_count = 0;
     std::uint32_t point_count = 0;
-    FaceCertificate certificate = kFaceUncertified;
   };
   /// Edges or faces with numbers first .. last - 1, of the leaves in one split cell.
   struct Task {
-    std::uint32_t cell = 0;
+    CellKey cell;
     std::uint32_t first = 0;
     std::uint32_t last = 0;
   };
@@ -112,7 +109,7 @@ class SplitLattice {
   static LatticeKey lattice_key(const FineIndex& lo, int axis, int level) {
     return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
   }
-  static void add_tasks(std::size_t cell, std::size_t first, std::size_t last, std::vector<Task>& tasks);
+  static void add_tasks(const SplitCell& cell, std::size_t first, std::size_t last, std::vector<Task>& tasks);
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void take_from_leaves(const CellKey& key);
   void drop_faces(const CellKey& key);
@@ -120,8 +117,8 @@ class SplitLattice {
   void mark_changed_beside(const CellKey& key);
   static std::array<CellKey, 6> cells_beside(const CellKey& key);
   unsigned fold_axes(const LatticeKey& face) const;
-  void find_edge_roots(std::size_t first_cell, int threads);
-  void trace_faces(std::size_t first_cell, int threads);
+  void find_edge_roots(std::span<const SplitCell> cells, int threads);
+  void trace_faces(std::span<const SplitCell> cells, int threads);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
   void add_roots_on(int axis, const FineIndex& lo, int level, int side, std::vector<FaceRoot>& roots) const;
   void collect_face_roots(const LatticeKey& face, std::vector<FaceRoot>& roots) const;
@@ -135,8 +132,9 @@ class SplitLattice {
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
   std::vector<CellKey> newly_split_;  ///< by the last call of split()
-  KeyIndex<LatticeKey, LatticeKeyHash> edges_, faces_;
-  std::vector<EdgeRoots> edge_roots_;  ///< by number of the edge
+  KeyIndex<LatticeKey, LatticeKeyHash> edges_;  ///< those that have roots
+  KeyIndex<LatticeKey, LatticeKeyHash> faces_;  ///< those that have curves
+  std::vector<VertexRange> edge_roots_;  ///< by number of the edge; indices into points_
   std::vector<FaceLinks> face_links_;  ///< by number of the face
   std::vector<Link> links_;
   std::vector<SurfacePoint> points_;  ///< vertices that smaller cells add
