@@ -53,9 +53,15 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
     return
-        [&, prover = CellProver(field_.decay(), kProofDepth), atoms = LocalAtoms(field_)](std::size_t i) mutable {
+        [&, whole = CellProver(field_.decay(), 0), parts = CellProver(field_.decay(), kProofDepth),
+         atoms = LocalAtoms(field_)](std::size_t i) mutable {
           atoms.move_to(cell_box(lattice_, cells[i]));
-          split_one(cells[i], atoms, prover, branches[i]);
+          const LeafCell cell = find_cell(cells[i]);
+          if (cell.sign != 0) {
+            split_certified(cell, atoms, whole, branches[i]);
+          } else {
+            split_one(cells[i], atoms, parts, branches[i]);
+          }
         };
   });
   for (SplitCell& cell : cells_) cell.is_changed = false;
@@ -82,9 +88,18 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   }
 }
 
+LeafCell SplitLattice::find_cell(const CellKey& key) const {
+  if (key.level == 0) {
+    const SurfaceCell& cell = store_.cell(*store_.find(key.lo));
+    return {key, cell.axis, cell.sign};
+  }
+  const std::vector<LeafCell>& leaves = cells_[cell_of_[*find_split_around(key)]].leaves;
+  return *std::find_if(leaves.begin(), leaves.end(), [&](const LeafCell& leaf) { return leaf.key == key; });
+}
+
 void SplitLattice::take_from_leaves(const CellKey& key) {
   if (key.level == 0) return;
-  SplitCell& parent = cells_[cell_of_[*split_.find(cell_around(key, key.level - 1))]];
+  SplitCell& parent = cells_[cell_of_[*find_split_around(key)]];
   std::erase_if(parent.leaves, [&](const LeafCell& leaf) { return leaf.key == key; });
   parent.is_changed = true;
 }
@@ -177,6 +192,20 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
     }
   }
   return axes;
+}
+
+/// What is proven of a cell holds for its children too.
+void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover,
+                                   Branch& branch) const {
+  branch.split.push_back(cell.key);
+  for (int c = 0; c < 8; ++c) {
+    const CellKey child = child_cell(cell.key, c);
+    const NearAtoms& near = around.within(proof_reach(child.level));
+    const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)));
+    if (own.kind == CellCertificate::Kind::kExcluded) continue;
+    const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
+    branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign});
+  }
 }
 
 void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const {

@@ -110,6 +110,8 @@ class SplitLattice {
     return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
   }
   static void add_tasks(const SplitCell& cell, std::size_t first, std::size_t last, std::vector<Task>& tasks);
+  LeafCell find_cell(const CellKey& key) const;
+  void split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void take_from_leaves(const CellKey& key);
   void drop_faces(const CellKey& key);
