@@ -11,7 +11,7 @@ constexpr int kOctantCells = kBrickCells / 2;
 }  // namespace
 
 BrickWalker::BrickWalker(const GaussianField& field, const Lattice& lattice)
-    : field_(field), lattice_(lattice), prover_(field.decay(), kProofDepth) {}
+    : field_(field), lattice_(lattice), prover_(field.decay()) {}
 
 void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
   const FineIndex origin = brick_origin(brick);
@@ -54,7 +54,7 @@ void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& 
     }
     octant_loaded_ = block_loaded = true;
     const LocalModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
-    const CellCertificate certificate = prover_.certify(proof_atoms_, model);
+    const CellCertificate certificate = prover_.certify(proof_atoms_, model, kProofDepth);
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
            i + kBrickCells * (j + kBrickCells * k),

@@ -35,8 +35,9 @@ Box child_box(const Box& box, int child) {
   return result;
 }
 
-CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& model) {
+CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& model, int depth) {
   using Kind = CellCertificate::Kind;
+  depth_ = depth;
   ++boxes_by_depth_[0];
   const LocalModel::View view = model.over_all();
   if (is_excluded(view.value())) return {Kind::kExcluded, 0, 0};
@@ -119,10 +120,6 @@ CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& bo
     }
   }
   return part;
-}
-
-bool CellProver::prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth) {
-  return prove_parts(atoms, LocalModel(atoms, decay_, box), axis, sign, depth);
 }
 
 bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth) {

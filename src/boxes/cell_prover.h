@@ -23,14 +23,11 @@ struct CellCertificate {
 /// Proves axes of cells, looking closer through sub-boxes where the cell as a whole does not show it.
 class CellProver {
  public:
-  /// @param depth  how often a cell is halved before its axis counts as unproven
-  CellProver(double decay, int depth) : decay_(decay), depth_(depth) {}
+  explicit CellProver(double decay) : decay_(decay) {}
 
   /// `model` is over the whole cell; `atoms` were collected for a box around it.
-  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model);
-
-  /// Whether d(phi)/d(axis) has `sign` wherever phi = c in `box`: proven through sub-boxes, or not.
-  bool prove_monotone(const NearAtoms& atoms, const Box& box, int axis, int sign, int depth);
+  /// @param depth  how often the cell is halved before its axis counts as unproven
+  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model, int depth);
 
   /// Sub-boxes that have had models of their own so far, by how often the cell was halved for them.
   const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }
@@ -43,13 +40,13 @@ class CellProver {
   };
   static Part look_at(const LocalModel::View& view, const Box& box);
 
-  /// As prove_monotone(), for the parts of the box of a model.
+  /// Whether d(phi)/d(axis) has `sign` wherever phi = c in the box of the model: proven through its parts, or not.
   bool prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth);
 
   void count_box(int depth) { ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)]; }
 
   double decay_;
-  int depth_;
+  int depth_ = 0;  ///< of the cell that is being looked at
   NearAtoms cell_atoms_;
   std::vector<std::size_t> boxes_by_depth_ = std::vector<std::size_t>(16, 0);
 };

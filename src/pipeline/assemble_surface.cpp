@@ -44,15 +44,6 @@ class BrickTracer {
     if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
     const FaceCertificate certificate = certificate_of(place, axis);
     collect_roots(place, axis);
-    if (certificate != kFaceUncertified) {
-      if (roots_.empty()) return;
-      if (cell.fold_axes[axis] == 0 && roots_.size() == 2 && roots_[0].boundary_side != roots_[1].boundary_side) {
-        const bool first_starts = roots_[0].boundary_side < 2 ? roots_[0].rise < 0 : roots_[0].rise > 0;
-        const auto [from, to] = first_starts ? std::pair(0, 1) : std::pair(1, 0);
-        result.links.push_back({roots_[from].vertex, roots_[to].vertex});
-        return;
-      }
-    }
     const CoordPoint lo = lattice_.point(store_.lowest_corner(place));
     CoordPoint hi = lo;
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;

@@ -27,8 +27,12 @@ constexpr int kLastPlainLevel = 3;
 /// kept.
 constexpr std::size_t kCellsAtOnce = 4096;
 
-/// Edges or faces that a thread takes at a time, near one cell.
-constexpr std::uint32_t kTaskSize = 64;
+/// Leaves whose edges or faces a thread takes at a time.
+constexpr int kTasksAtOnce = 16;
+
+/// How far the proof for a part of a cell looks: down to what the proof of the whole cell looked at, and once at
+/// least. It gives up the sooner the smaller the parts are, since each is split in its turn.
+int proof_depth(int level) { return std::max(1, kProofDepth - level); }
 
 Reach proof_reach(int level) { return level <= kLastPlainLevel ? Reach::kProof : Reach::kFine; }
 Reach root_reach(int level) { return level <= kLastPlainLevel ? Reach::kPlain : Reach::kFine; }
@@ -53,14 +57,13 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
     return
-        [&, whole = CellProver(field_.decay(), 0), parts = CellProver(field_.decay(), kProofDepth),
-         atoms = LocalAtoms(field_)](std::size_t i) mutable {
+        [&, prover = CellProver(field_.decay()), atoms = LocalAtoms(field_)](std::size_t i) mutable {
           atoms.move_to(cell_box(lattice_, cells[i]));
           const LeafCell cell = find_cell(cells[i]);
           if (cell.sign != 0) {
-            split_certified(cell, atoms, whole, branches[i]);
+            split_certified(cell, atoms, prover, branches[i]);
           } else {
-            split_one(cells[i], atoms, parts, branches[i]);
+            split_one(cells[i], atoms, prover, branches[i]);
           }
         };
   });
@@ -201,7 +204,7 @@ void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, Cel
   for (int c = 0; c < 8; ++c) {
     const CellKey child = child_cell(cell.key, c);
     const NearAtoms& near = around.within(proof_reach(child.level));
-    const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)));
+    const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)), 0);
     if (own.kind == CellCertificate::Kind::kExcluded) continue;
     const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
     branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign});
@@ -214,7 +217,8 @@ void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver&
     const CellKey child = child_cell(key, c);
     const Box box = cell_box(lattice_, child);
     const NearAtoms& near = around.within(proof_reach(child.level));
-    const CellCertificate certificate = prover.certify(near, LocalModel(near, field_.decay(), box));
+    const CellCertificate certificate =
+        prover.certify(near, LocalModel(near, field_.decay(), box), proof_depth(child.level));
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
     if (certified) {
@@ -244,8 +248,8 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
   std::vector<std::uint8_t> is_monotone;
   std::vector<Task> tasks;
   for (const SplitCell& cell : cells) {
-    const std::size_t first_edge = edges.size();
     for (const LeafCell& leaf : cell.leaves) {
+      const std::size_t first_edge = edges.size();
       const std::int64_t size = fine_size(leaf.key.level);
       for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
@@ -258,22 +262,31 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
           if (edge.level == leaf.key.level && leaf.sign != 0 && leaf.axis == axis) is_monotone[number] = 1;
         }
       }
+      if (edges.size() > first_edge) tasks.push_back(task(cell, leaf, first_edge, edges.size()));
     }
-    add_tasks(cell, first_edge, edges.size(), tasks);
   }
   std::vector<std::vector<EdgeRoot>> found(edges.size());
-  parallel_for_workers(tasks.size(), threads, 1, [&] {
-    return [&, atoms = LocalAtoms(field_), finder = EdgeRootFinder(field_, lattice_)](std::size_t t) mutable {
-      atoms.move_to(cell_box(lattice_, tasks[t].cell));
-      for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
+  parallel_for_workers(tasks.size(), threads, kTasksAtOnce, [&] {
+    return [&, atoms = LocalAtoms(field_), around = CellKey{{}, -1},
+            finder = EdgeRootFinder(field_, lattice_)](std::size_t t) mutable {
+      const Task& task = tasks[t];
+      if (!(task.cell == around)) atoms.move_to(cell_box(lattice_, around = task.cell));
+      const LocalModel in_leaf(atoms.within(proof_reach(task.leaf.level)), field_.decay(),
+                               cell_box(lattice_, task.leaf));
+      for (std::uint32_t i = task.first; i < task.last; ++i) {
         const LatticeKey& edge = edges[i];
         const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
-        const LocalModel model(atoms.within(proof_reach(edge.level)), field_.decay(),
-                               lattice_box(lattice_, edge.lo, end));
-        const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
-                                       lattice_.point(edge.lo), lattice_.plane(edge.axis, end[edge.axis]),
-                                       {Side::kUnknown, Side::kUnknown, is_monotone[i] != 0});
-        found[i].assign(roots.begin(), roots.end());
+        const auto find = [&](const LocalModel& model) {
+          const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
+                                         lattice_.point(edge.lo), lattice_.plane(edge.axis, end[edge.axis]),
+                                         {Side::kUnknown, Side::kUnknown, is_monotone[i] != 0});
+          found[i].assign(roots.begin(), roots.end());
+        };
+        if (edge.level == task.leaf.level) {
+          find(in_leaf);
+        } else {
+          find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(), lattice_box(lattice_, edge.lo, end)));
+        }
       }
     };
   });
@@ -330,8 +343,8 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
   std::vector<FaceCertificate> certificates;
   std::vector<Task> tasks;
   for (const SplitCell& cell : cells) {
-    const std::size_t first_face = faces.size();
     for (const LeafCell& leaf : cell.leaves) {
+      const std::size_t first_face = faces.size();
       for (int axis = 0; axis < 3; ++axis) {
         for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
           const FineIndex lo = moved(leaf.key.lo, axis, by);
@@ -346,14 +359,14 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
           }
         }
       }
+      if (faces.size() > first_face) tasks.push_back(task(cell, leaf, first_face, faces.size()));
     }
-    add_tasks(cell, first_face, faces.size(), tasks);
   }
   std::vector<FaceCurves> curves(faces.size());
-  parallel_for_workers(tasks.size(), threads, 1, [&] {
-    return [&, atoms = LocalAtoms(field_), tracer = FaceTracer(field_, lattice_),
+  parallel_for_workers(tasks.size(), threads, kTasksAtOnce, [&] {
+    return [&, atoms = LocalAtoms(field_), around = CellKey{{}, -1}, tracer = FaceTracer(field_, lattice_),
             roots = std::vector<FaceRoot>()](std::size_t t) mutable {
-      atoms.move_to(cell_box(lattice_, tasks[t].cell));
+      if (!(tasks[t].cell == around)) atoms.move_to(cell_box(lattice_, around = tasks[t].cell));
       tracer.take_atoms_from(atoms);
       for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
         const LatticeKey& face = faces[i];
@@ -380,12 +393,6 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
     for (const Link& link : found.links) links_.push_back({numbered(link.from), numbered(link.to)});
     points_.insert(points_.end(), found.points.begin(), found.points.end());
     rises_.resize(points_.size(), 0);
-  }
-}
-
-void SplitLattice::add_tasks(const SplitCell& cell, std::size_t first, std::size_t last, std::vector<Task>& tasks) {
-  for (auto i = static_cast<std::uint32_t>(first); i < last; i += kTaskSize) {
-    tasks.push_back({cell.key, i, std::min(i + kTaskSize, static_cast<std::uint32_t>(last))});
   }
 }
 

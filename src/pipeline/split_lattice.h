@@ -98,9 +98,10 @@ class SplitLattice {
     std::uint32_t link_count = 0;
     std::uint32_t point_count = 0;
   };
-  /// Edges or faces with numbers first .. last - 1, of the leaves in one split cell.
+  /// Edges or faces with numbers first .. last - 1, of a leaf in a split cell.
   struct Task {
     CellKey cell;
+    CellKey leaf;
     std::uint32_t first = 0;
     std::uint32_t last = 0;
   };
@@ -109,7 +110,9 @@ class SplitLattice {
   static LatticeKey lattice_key(const FineIndex& lo, int axis, int level) {
     return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
   }
-  static void add_tasks(const SplitCell& cell, std::size_t first, std::size_t last, std::vector<Task>& tasks);
+  static Task task(const SplitCell& cell, const LeafCell& leaf, std::size_t first, std::size_t last) {
+    return {cell.key, leaf.key, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
+  }
   LeafCell find_cell(const CellKey& key) const;
   void split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;

@@ -67,21 +67,27 @@ bool FaceTracer::is_plain(const Rect& rect) const {
 
 const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
                                     std::span<const FaceRoot> roots, unsigned fold_axes) {
+  curves_.links.clear();
+  curves_.points.clear();
+  if (certificate != kFaceUncertified && roots.empty()) return curves_;
+  if (is_one_chord(certificate, roots) && fold_axes == 0) {
+    const bool first_starts = starts_curve(roots[0].boundary_side, roots[0].rise);
+    curves_.links.push_back(first_starts ? Link{roots[0].vertex, roots[1].vertex}
+                                         : Link{roots[1].vertex, roots[0].vertex});
+    return curves_;
+  }
   axis_ = axis;
   face_ = {lo, hi};
   atoms_.move_to({to_angstrom(lo), to_angstrom(hi)}, around_);
   points_.clear();
   pieces_.clear();
   chains_.clear();
-  curves_.links.clear();
-  curves_.points.clear();
 
   std::vector<RectRoot> rect_roots;
   for (const FaceRoot& root : roots) {
     rect_roots.push_back({static_cast<int>(points_.size()), root.boundary_side});
     points_.push_back({{root.position, {}, 0}, root.vertex, root.rise, true, -1, -1});
   }
-  if (certificate == kFaceEmpty && roots.empty()) return curves_;
   trace_rect(face_, certificate, std::move(rect_roots));
   collect_chains(roots);
   bool straight = true;
@@ -101,11 +107,19 @@ const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordP
   return curves_;
 }
 
-bool FaceTracer::starts_curve(const RectRoot& root) const {
-  // Walking counter-clockwise, a curve with the molecule on its left begins where the boundary leaves the molecule.
-  const int rise = points_[root.point].rise;
-  return root.side < 2 ? rise < 0 : rise > 0;
+bool FaceTracer::is_one_chord(FaceCertificate certificate, std::span<const FaceRoot> roots) {
+  if (!(certificate & (kFaceAlongFirst | kFaceAlongSecond)) || roots.size() != 2) return false;
+  const FaceRoot &p = roots[0], &q = roots[1];
+  return p.boundary_side != q.boundary_side &&
+         starts_curve(p.boundary_side, p.rise) != starts_curve(q.boundary_side, q.rise);
 }
+
+bool FaceTracer::starts_curve(int side, int rise) {
+  // Walking counter-clockwise, a curve with the molecule on its left begins where the boundary leaves the molecule.
+  return side < 2 ? rise < 0 : rise > 0;
+}
+
+bool FaceTracer::starts_curve(const RectRoot& root) const { return starts_curve(root.side, points_[root.point].rise); }
 
 void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots) {
   if (certificate == kFaceEmpty) {

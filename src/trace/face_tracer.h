@@ -132,6 +132,9 @@ class FaceTracer {
   }
   PlanePoint plane(int point) const;
   int length_of(const Chain& chain) const;
+  /// Whether the face has one curve, from side to side, for which a chord will do.
+  static bool is_one_chord(FaceCertificate certificate, std::span<const FaceRoot> roots);
+  static bool starts_curve(int side, int rise);
   bool starts_curve(const RectRoot& root) const;
 
   const GaussianField& field_;

@@ -180,8 +180,7 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
       NearAtoms near;
       field.collect_near(box, near);
       const LocalModel model(near, decay, box);
-      CellProver prover(decay, 3);
-      const CellCertificate certificate = prover.certify(near, model);
+      const CellCertificate certificate = CellProver(decay).certify(near, model, 3);
       if (certificate.kind != CellCertificate::Kind::kMonotone) continue;
       const std::vector<Loop> loops = cell_loops(field, lattice, key);
       if (loops.empty()) continue;
