@@ -19,11 +19,12 @@ class BrickTracer {
     tracer_.set_plain(true);
   }
 
-  /// Fills the links and face points of a brick, and nothing that other bricks are traced from.
-  void trace(Brick& result, std::uint32_t brick_number) {
+  /// Fills the links of a brick, and nothing that other bricks are traced from.
+  /// @param points  gets the vertices inside faces, those of the links from kLocalVertex on
+  void trace(Brick& result, std::uint32_t brick_number, std::vector<SurfacePoint>& points) {
     move_to(brick_number);
+    points_ = &points;
     result.links.clear();
-    result.face_points.clear();
     for (std::uint32_t i = 0; i < result.cells.size(); ++i) {
       result.cells[i].first_link = static_cast<std::uint32_t>(result.links.size());
       for (int axis = 0; axis < 3; ++axis) {
@@ -35,7 +36,6 @@ class BrickTracer {
       }
     }
     result.links.shrink_to_fit();
-    result.face_points.shrink_to_fit();
   }
 
  private:
@@ -49,10 +49,10 @@ class BrickTracer {
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
     const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.fold_axes[axis]);
-    const auto base = static_cast<std::uint32_t>(result.face_points.size());
+    const auto base = static_cast<std::uint32_t>(points_->size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
-    result.face_points.insert(result.face_points.end(), curves.points.begin(), curves.points.end());
+    points_->insert(points_->end(), curves.points.begin(), curves.points.end());
   }
 
   /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in it.
@@ -95,6 +95,7 @@ class BrickTracer {
   FaceTracer tracer_;
   LocalAtoms atoms_;   ///< near the brick
   std::vector<FaceRoot> roots_;
+  std::vector<SurfacePoint>* points_ = nullptr;
 };
 
 /// Cells of this level and finer are not split any more for a triangle that is turned against the field: the promise
@@ -105,14 +106,14 @@ constexpr int kFinestForNormals = 5;
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const FoldCellMap& folds, double least_corner_cosine)
+              const FoldCellMap& folds, const TracedVertices& vertices, double least_corner_cosine)
       : field_(field),
         lattice_(lattice),
         store_(store),
         folds_(folds),
-        points_(store, split),
+        vertices_(vertices),
         least_corner_cosine_(least_corner_cosine),
-        collector_(lattice, store, split),
+        collector_(lattice, store, split, vertices),
         triangulator_(field),
         fold_triangulator_(field) {}
 
@@ -153,7 +154,7 @@ class CellPatcher {
   }
 
   const SurfacePoint& point(std::uint32_t vertex, const Patch& patch) const {
-    return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : points_[vertex];
+    return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : vertices_[vertex];
   }
 
   /// Whether a triangle is turned against the field at its centroid, or has corners that face too many ways: the cell is
@@ -180,7 +181,7 @@ class CellPatcher {
   const Lattice& lattice_;
   const CellStore& store_;
   const FoldCellMap& folds_;
-  VertexPoints points_;
+  const TracedVertices& vertices_;
   double least_corner_cosine_;
   NearAtoms atoms_;
   LoopCollector collector_;
@@ -188,115 +189,81 @@ class CellPatcher {
   FoldTriangulator fold_triangulator_;
 };
 
-std::vector<std::uint32_t> flags_of(const Brick& brick) {
-  std::vector<std::uint32_t> state;
-  state.reserve(brick.cells.size());
-  for (const SurfaceCell& cell : brick.cells) {
-    std::uint32_t flags = cell.divided_faces;
-    for (const std::uint8_t axes : cell.fold_axes) flags = flags << 8 | axes;
-    state.push_back(flags);
-  }
-  return state;
-}
-
 }  // namespace
 
-LevelZeroTracer::LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store)
-    : field_(field), lattice_(lattice), store_(store), traced_(store.bricks().size()) {}
-
-void LevelZeroTracer::trace(std::uint32_t first_vertex, int threads) {
-  std::vector<Brick>& bricks = store_.bricks();
+void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store,
+                  std::span<const std::uint32_t> bricks, TracedVertices& vertices, int threads) {
+  std::vector<std::vector<SurfacePoint>> points(bricks.size());
   parallel_for_workers(bricks.size(), threads, 1, [&] {
-    return [&, tracer = BrickTracer(field_, lattice_, store_)](std::size_t i) mutable {
-      std::vector<std::uint32_t> state = flags_of(bricks[i]);
-      TracedBrick& traced = traced_[i];
-      traced.is_new = !traced.is_done || state != traced.state;
-      if (!traced.is_new) return;
-      tracer.trace(bricks[i], static_cast<std::uint32_t>(i));
-      traced.state = std::move(state);
-      traced.is_done = true;
+    return [&, tracer = BrickTracer(field, lattice, store)](std::size_t i) mutable {
+      tracer.trace(store.bricks()[bricks[i]], bricks[i], points[i]);
     };
   });
-  std::uint32_t next_vertex = first_vertex;
-  for (Brick& brick : bricks) {
-    brick.first_face_vertex = next_vertex;
-    next_vertex += static_cast<std::uint32_t>(brick.face_points.size());
-  }
-}
-
-bool CellTriangulator::sees_new_faces(const LevelZeroTracer& faces, std::uint32_t brick) const {
-  // The faces of a cell are its own low ones and those of the next cell along each axis.
-  if (faces.is_new(brick)) return true;
-  const BrickIndex index = store_.bricks()[brick].index;
-  for (int axis = 0; axis < 3; ++axis) {
-    BrickIndex next = index;
-    ++next[axis];
-    if (const auto b = store_.find_brick(next); b && faces.is_new(*b)) return true;
-  }
-  return false;
-}
-
-void CellTriangulator::renumber_face_points(PatchedCells& cells) const {
-  const std::uint32_t first = face_vertices_.front();
-  for (Triangle& t : cells.triangles) {
-    for (std::uint32_t& v : t) {
-      if (v < first || v >= kLocalVertex) continue;
-      const auto brick = std::upper_bound(face_vertices_.begin(), face_vertices_.end(), v) - face_vertices_.begin() - 1;
-      v += store_.bricks()[brick].first_face_vertex - face_vertices_[brick];
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    Brick& brick = store.bricks()[bricks[i]];
+    vertices.drop(brick.face_vertices);
+    brick.face_vertices = vertices.add(points[i]);
+    const auto number = [&](std::uint32_t& v) {
+      if (v >= kLocalVertex) v = brick.face_vertices.first + (v - kLocalVertex);
+    };
+    for (Link& link : brick.links) {
+      number(link.from);
+      number(link.to);
     }
   }
 }
 
+std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<const std::uint32_t> traced) {
+  // The faces of a cell are its own low ones and those of the next cell along each axis.
+  std::vector<std::uint32_t> bricks(traced.begin(), traced.end());
+  for (const std::uint32_t b : traced) {
+    for (int axis = 0; axis < 3; ++axis) {
+      BrickIndex index = store.bricks()[b].index;
+      --index[axis];
+      if (const auto before = store.find_brick(index)) bricks.push_back(*before);
+    }
+  }
+  return bricks;
+}
+
 PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
-                                           const LevelZeroTracer& faces, int threads) {
-  PatchOutcome outcome;
-  const std::size_t bricks = store_.bricks().size();
-  const bool is_first = patched_.empty();
-  const std::vector<bool> is_changed = split.changed_bricks();
-  patched_.resize(bricks + split.cells().size());
-  parallel_for_workers(patched_.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, least_corner_cosine_)](std::size_t task) mutable {
-      PatchedCells& result = patched_[task];
-      if (task < bricks) {
-        const auto brick = static_cast<std::uint32_t>(task);
-        const bool is_kept =
-            !is_first && result.failed.empty() && !is_changed[brick] && !sees_new_faces(faces, brick);
-        if (is_kept) return renumber_face_points(result);
-        result = {};
+                                           const TracedVertices& vertices, std::span<const std::uint32_t> bricks,
+                                           int threads) {
+  const std::size_t all_bricks = store_.bricks().size();
+  patched_.resize(all_bricks + split.cells().size());
+  std::vector<std::size_t> tasks(bricks.begin(), bricks.end());
+  for (const std::uint32_t cell : split.changed_cells()) tasks.push_back(all_bricks + cell);
+  parallel_for_workers(tasks.size(), threads, 1, [&] {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, least_corner_cosine_)](
+               std::size_t i) mutable {
+      PatchedCells& result = patched_[tasks[i]];
+      result = {};
+      if (tasks[i] < all_bricks) {
+        const auto brick = static_cast<std::uint32_t>(tasks[i]);
         const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
-        for (std::uint32_t i = 0; i < cells; ++i) patcher.patch_cell({brick, i}, result);
-        result.triangles.shrink_to_fit();
+        for (std::uint32_t c = 0; c < cells; ++c) patcher.patch_cell({brick, c}, result);
       } else {
-        // Smaller cells see no vertices inside faces of level 0: theirs keep their numbers.
-        const SplitCell& cell = split.cells()[task - bricks];
-        if (!is_first && !cell.is_changed) return;
-        result = {};
-        for (const LeafCell& leaf : cell.leaves) patcher.patch_leaf(leaf, result);
+        for (const LeafCell& leaf : split.cells()[tasks[i] - all_bricks].leaves) patcher.patch_leaf(leaf, result);
       }
+      result.triangles.shrink_to_fit();
     };
   });
-  face_vertices_.clear();
-  for (const Brick& brick : store_.bricks()) face_vertices_.push_back(brick.first_face_vertex);
-  for (const PatchedCells& cells : patched_) {
-    outcome.fold_cells += cells.fold_cells;
-    outcome.failed.insert(outcome.failed.end(), cells.failed.begin(), cells.failed.end());
+  PatchOutcome outcome;
+  for (const std::size_t task : tasks) {
+    outcome.failed.insert(outcome.failed.end(), patched_[task].failed.begin(), patched_[task].failed.end());
   }
+  for (const PatchedCells& cells : patched_) outcome.fold_cells += cells.fold_cells;
   return outcome;
 }
 
-SurfaceMesh CellTriangulator::join(CellStore& store, const SplitLattice& split, int threads) && {
-  std::vector<SurfacePoint> face_points;
-  for (const Brick& brick : store.bricks()) {
-    face_points.insert(face_points.end(), brick.face_points.begin(), brick.face_points.end());
-  }
+SurfaceMesh CellTriangulator::join(CellStore& store, const TracedVertices& vertices, int threads) && {
   std::size_t inner_points = 0;
   for (const PatchedCells& cells : patched_) inner_points += cells.points.size();
   SurfaceMesh surface;
   surface.points = store.release_roots();
-  surface.points.reserve(surface.points.size() + split.points().size() + face_points.size() + inner_points);
-  surface.points.insert(surface.points.end(), split.points().begin(), split.points().end());
-  surface.points.insert(surface.points.end(), face_points.begin(), face_points.end());
-  std::vector<std::uint32_t> dead_vertices = split.dead_vertices();
+  surface.points.reserve(surface.points.size() + vertices.added().size() + inner_points);
+  surface.points.insert(surface.points.end(), vertices.added().begin(), vertices.added().end());
+  std::vector<std::uint32_t> dead_vertices = vertices.dropped();
   std::sort(dead_vertices.begin(), dead_vertices.end());
   for (std::size_t i = 0; i < dead_vertices.size(); ++i) {
     // The living ones from a dead one to the next move down by as many as are dead before them.

@@ -10,30 +10,13 @@
 
 namespace gaussmesh {
 
-/// For which demands the curves on the faces of one brick were followed.
-struct TracedBrick {
-  std::vector<std::uint32_t> state;   ///< what was asked of the faces, by cell
-  bool is_done = false;
-  bool is_new = false;                ///< not what it was in the round before
-};
+/// Follows the curves on the faces of level 0 that some bricks own and that smaller cells have not taken over: fills
+/// their links anew, and adds vertices inside faces.
+void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store,
+                  std::span<const std::uint32_t> bricks, TracedVertices& vertices, int threads);
 
-/// Follows the curves on the faces of level 0, and again where smaller cells have since taken faces over.
-class LevelZeroTracer {
- public:
-  LevelZeroTracer(const GaussianField& field, const Lattice& lattice, CellStore& store);
-
-  /// Fills `links` and `face_points` of the bricks, whose vertices are numbered from `first_vertex` on.
-  void trace(std::uint32_t first_vertex, int threads);
-
-  /// Whether the last call followed the curves of a brick again.
-  bool is_new(std::uint32_t brick) const { return traced_[brick].is_new; }
-
- private:
-  const GaussianField& field_;
-  const Lattice& lattice_;
-  CellStore& store_;
-  std::vector<TracedBrick> traced_;
-};
+/// The bricks that see the faces of others, and those themselves.
+std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<const std::uint32_t> traced);
 
 /// What triangulating the cells gave.
 struct PatchOutcome {
@@ -58,24 +41,20 @@ class CellTriangulator {
                    double least_corner_cosine)
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
-  /// All curves have been traced. When no cell failed, this is the last call, and join() makes the surface of what
-  /// it kept.
-  PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const LevelZeroTracer& faces,
-                           int threads);
+  /// Triangulates the cells in some bricks - all of them in the first call - and those that the last call of
+  /// split.split() changed. When no cell fails, join() makes the surface of what was kept from all calls.
+  PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const TracedVertices& vertices,
+                           std::span<const std::uint32_t> bricks, int threads);
 
   /// The surface of all cells. What `store` had is gone then.
-  SurfaceMesh join(CellStore& store, const SplitLattice& split, int threads) &&;
+  SurfaceMesh join(CellStore& store, const TracedVertices& vertices, int threads) &&;
 
  private:
-  bool sees_new_faces(const LevelZeroTracer& faces, std::uint32_t brick) const;
-  void renumber_face_points(PatchedCells& cells) const;
-
   const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
   double least_corner_cosine_;
-  std::vector<PatchedCells> patched_;           ///< by brick, then by split cell
-  std::vector<std::uint32_t> face_vertices_;    ///< first_face_vertex of the bricks, as numbered in `patched_`
+  std::vector<PatchedCells> patched_;   ///< by brick, then by split cell
 };
 
 }  // namespace gaussmesh

@@ -27,22 +27,21 @@ struct SurfaceCell {
   std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
 };
 
+/// Vertices with numbers that follow each other.
+struct VertexRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
 /// A cube of kBrickCells^3 cells.
 struct Brick {
   BrickIndex index{};
   std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
   std::vector<SurfaceCell> cells;            ///< by `local`
   std::vector<Link> links;
-  std::vector<SurfacePoint> face_points;     ///< vertices inside faces, those of `links` from kLocalVertex on
+  VertexRange face_vertices;                 ///< vertices inside faces
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
-  std::uint32_t first_face_vertex = 0;       ///< number of the first of `face_points`
   std::vector<std::size_t> boxes_by_level;
-};
-
-/// Vertices with numbers that follow each other.
-struct VertexRange {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
 };
 
 /// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell.
@@ -78,7 +77,7 @@ class CellStore {
   VertexRange edge_roots(const Place& place, int axis) const;
   const SurfacePoint& root(std::uint32_t vertex) const { return roots_[vertex]; }
   int rise(std::uint32_t vertex) const { return rises_[vertex]; }  ///< EdgeRoot::side
-  /// The links in a face; a vertex inside it is numbered within the brick, from kLocalVertex on.
+  /// The links in a face.
   std::span<const Link> face_links(const Place& place, int axis) const;
 
   std::uint32_t root_vertices() const { return static_cast<std::uint32_t>(roots_.size()); }

@@ -31,7 +31,7 @@ bool goes_round_surface(const LeafCell& leaf, const Loop& loop) {
 /// The surface in one cell, put together from the discs of the smaller cells in it.
 class CellSurface {
  public:
-  explicit CellSurface(const VertexPoints& points) : points_(points) {}
+  explicit CellSurface(const TracedVertices& points) : points_(points) {}
 
   void add_disc(std::span<const Link> links) {
     for (const Link& link : links) {
@@ -137,7 +137,7 @@ class CellSurface {
     return component.fold_axis >= 0;
   }
 
-  const VertexPoints& points_;
+  const TracedVertices& points_;
   std::unordered_map<std::uint32_t, int> index_;
   std::vector<std::uint32_t> vertices_;
   std::vector<int> parent_;
@@ -148,8 +148,9 @@ class CellSurface {
 
 class FoldSearch {
  public:
-  FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split)
-      : lattice_(lattice), store_(store), split_(split), points_(store, split) {
+  FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split,
+             const TracedVertices& vertices)
+      : lattice_(lattice), store_(store), split_(split), vertices_(vertices) {
     for (const SplitCell& cell : split.cells()) {
       for (const LeafCell& leaf : cell.leaves) leaves_.emplace(leaf.key, &leaf);
     }
@@ -169,8 +170,8 @@ class FoldSearch {
 
  private:
   std::optional<FoldCell> analyse(const CellKey& key) const {
-    CellSurface surface(points_);
-    LoopCollector collector(lattice_, store_, split_);
+    CellSurface surface(vertices_);
+    LoopCollector collector(lattice_, store_, split_, vertices_);
     if (!add_leaves(key, collector, surface)) return std::nullopt;
     auto components = surface.components(lattice_.point(key.lo), lattice_.point(cell_hi(key)));
     if (!components) return std::nullopt;
@@ -201,7 +202,7 @@ class FoldSearch {
   const Lattice& lattice_;
   const CellStore& store_;
   const SplitLattice& split_;
-  VertexPoints points_;
+  const TracedVertices& vertices_;
   std::unordered_map<CellKey, const LeafCell*, CellKeyHash> leaves_;
 };
 
@@ -219,14 +220,15 @@ BatchResult search_batch(const GaussianField& field, const Lattice& lattice, con
                          std::span<const CellKey> cells) {
   BatchResult result;
   const FoldCellMap none;
-  SplitLattice split(field, lattice, store, none);
+  TracedVertices vertices(store);
+  SplitLattice split(field, lattice, store, none, vertices);
   split.split(cells, 1);
   for (const SplitCell& cell : split.cells()) {
     for (const LeafCell& leaf : cell.leaves) result.finest_level = std::max(result.finest_level, leaf.key.level);
   }
   result.uncertified = split.uncertified();
   if (!result.uncertified.empty()) return result;
-  const FoldSearch search(lattice, store, split);
+  const FoldSearch search(lattice, store, split, vertices);
   for (const CellKey& cell : cells) search.search(cell, result.folds);
   return result;
 }

@@ -6,15 +6,6 @@
 
 namespace gaussmesh {
 
-const SurfacePoint& VertexPoints::face_point(std::uint32_t vertex) const {
-  const std::vector<Brick>& bricks = store_.bricks();
-  const auto next = std::upper_bound(bricks.begin(), bricks.end(), vertex, [](std::uint32_t v, const Brick& brick) {
-    return v < brick.first_face_vertex;
-  });
-  const Brick& brick = *(next - 1);
-  return brick.face_points[vertex - brick.first_face_vertex];
-}
-
 std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t hint) {
   links_.clear();
   for (int k = 0; k < 3; ++k) {
@@ -28,22 +19,16 @@ std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t h
 // The surface of a cell is on the left of a link in its low faces, on the right of one in its high faces.
 void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
   std::span<const Link> links;
-  std::uint32_t first_local = 0;
   if (level == 0) {
     const auto place = store_.find(lo, hint);
     if (!place) return;
     if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
     links = store_.face_links(*place, axis);
-    first_local = store_.bricks()[place->brick].first_face_vertex;
   } else {
     if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
     links = split_.face_links(axis, lo, level);
   }
-  const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? first_local + (v - kLocalVertex) : v; };
-  for (const Link& link : links) {
-    const std::uint32_t from = numbered(link.from), to = numbered(link.to);
-    links_.push_back(high_side ? Link{to, from} : Link{from, to});
-  }
+  for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);
 }
 
 void LoopCollector::collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
@@ -64,14 +49,14 @@ void LoopCollector::build_loops(const CoordPoint& lo, const CoordPoint& hi) {
     std::size_t at = i;
     while (!used_[at]) {
       used_[at] = true;
-      const SurfacePoint& point = points_[links_[at].from];
+      const SurfacePoint& point = vertices_[links_[at].from];
       loop.push_back({links_[at].from, point, faces_of(point.position, lo, hi)});
       const auto next = std::find_if(links_.begin(), links_.end(),
                                      [&](const Link& link) { return link.from == links_[at].to; });
       if (next == links_.end()) throw LatticeDegenerate(to_angstrom(point.position));
       at = static_cast<std::size_t>(next - links_.begin());
     }
-    if (at != i) throw LatticeDegenerate(to_angstrom(points_[links_[at].from].position));
+    if (at != i) throw LatticeDegenerate(to_angstrom(vertices_[links_[at].from].position));
   }
 }
 

@@ -44,6 +44,11 @@ CellKey cell_around(const CellKey& cell, int level) {
   return result;
 }
 
+void sort_and_unite(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 /// Axes along which the components of a cell are cut.
 unsigned fold_axes_of(const FoldCell& cell) {
   unsigned axes = 0;
@@ -52,6 +57,19 @@ unsigned fold_axes_of(const FoldCell& cell) {
 }
 
 }  // namespace
+
+void mark_folds(const FoldCellMap& folds, CellStore& store) {
+  for (const auto& [key, cell] : folds) {
+    if (key.level > 0) continue;
+    const auto axes = static_cast<std::uint8_t>(fold_axes_of(cell));
+    const auto place = store.find(key.lo);
+    for (int axis = 0; axis < 3; ++axis) {
+      store.cell(*place).fold_axes[axis] |= axes;
+      const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick);
+      if (next) store.cell(*next).fold_axes[axis] |= axes;
+    }
+  }
+}
 
 void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
@@ -67,8 +85,8 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
           }
         };
   });
-  for (SplitCell& cell : cells_) cell.is_changed = false;
   newly_split_.clear();
+  changed_cells_.clear();
   const std::size_t first_cell = cells_.size();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     Branch& branch = branches[i];
@@ -80,9 +98,12 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
     }
     newly_split_.insert(newly_split_.end(), branch.split.begin(), branch.split.end());
     uncertified_.insert(uncertified_.end(), branch.uncertified.begin(), branch.uncertified.end());
-    cells_.push_back({cells[i], std::move(branch.leaves), true});
+    branch.leaves.shrink_to_fit();
+    changed_cells_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    cells_.push_back({cells[i], std::move(branch.leaves)});
   }
   for (const CellKey& key : newly_split_) mark_changed_beside(key);
+  sort_and_unite(changed_cells_);
   if (!uncertified_.empty()) return;
   for (std::size_t first = first_cell; first < cells_.size(); first += kCellsAtOnce) {
     const std::span<const SplitCell> some = std::span(cells_).subspan(first, std::min(kCellsAtOnce, cells_.size() - first));
@@ -102,9 +123,9 @@ LeafCell SplitLattice::find_cell(const CellKey& key) const {
 
 void SplitLattice::take_from_leaves(const CellKey& key) {
   if (key.level == 0) return;
-  SplitCell& parent = cells_[cell_of_[*find_split_around(key)]];
-  std::erase_if(parent.leaves, [&](const LeafCell& leaf) { return leaf.key == key; });
-  parent.is_changed = true;
+  const std::uint32_t parent = cell_of_[*find_split_around(key)];
+  std::erase_if(cells_[parent].leaves, [&](const LeafCell& leaf) { return leaf.key == key; });
+  changed_cells_.push_back(parent);
 }
 
 /// Smaller cells take the faces of a split one over.
@@ -113,10 +134,8 @@ void SplitLattice::drop_faces(const CellKey& key) {
     for (const std::int64_t by : {std::int64_t{0}, fine_size(key.level)}) {
       const auto face = faces_.find(lattice_key(moved(key.lo, axis, by), axis, key.level));
       if (!face) continue;
-      FaceLinks& links = face_links_[*face];
-      for (std::uint32_t i = 0; i < links.point_count; ++i)
-        dead_vertices_.push_back(first_vertex() + links.first_point + i);
-      links = {};
+      vertices_.drop(face_links_[*face].vertices);
+      face_links_[*face] = {};
     }
   }
 }
@@ -141,46 +160,40 @@ std::optional<std::uint32_t> SplitLattice::find_split_around(const CellKey& key)
 void SplitLattice::mark_changed_beside(const CellKey& key) {
   for (const CellKey& beside : cells_beside(key)) {
     if (split_.contains(beside)) continue;
-    if (const auto around = find_split_around(beside)) cells_[cell_of_[*around]].is_changed = true;
+    if (const auto around = find_split_around(beside)) changed_cells_.push_back(cell_of_[*around]);
   }
 }
 
-std::vector<bool> SplitLattice::changed_bricks() const {
-  std::vector<bool> is_changed(store_.bricks().size(), false);
+std::vector<std::uint32_t> SplitLattice::changed_bricks() const {
+  std::vector<std::uint32_t> bricks;
   for (const CellKey& key : newly_split_) {
-    if (key.level == 0) is_changed[store_.find(key.lo)->brick] = true;
+    if (key.level == 0) bricks.push_back(store_.find(key.lo)->brick);
     for (const CellKey& beside : cells_beside(key)) {
       if (split_.contains(beside) || find_split_around(beside)) continue;
-      if (const auto place = store_.find(cell_around(beside, 0).lo)) is_changed[place->brick] = true;
+      if (const auto place = store_.find(cell_around(beside, 0).lo)) bricks.push_back(place->brick);
     }
   }
-  return is_changed;
+  sort_and_unite(bricks);
+  return bricks;
 }
 
-void SplitLattice::mark_cells(CellStore& store) const {
-  for (const SplitCell& cell : cells_) {
-    if (cell.key.level > 0) continue;
-    const auto place = store.find(cell.key.lo);
+std::vector<std::uint32_t> SplitLattice::mark_cells(CellStore& store) const {
+  std::vector<std::uint32_t> bricks;
+  for (const CellKey& key : newly_split_) {
+    if (key.level > 0) continue;
+    const auto place = store.find(key.lo);
     store.cell(*place).split = true;
     store.cell(*place).divided_faces = 7;
+    bricks.push_back(place->brick);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto next = store.find(moved(cell.key.lo, axis, kFinePerCell), place->brick);
-      if (next) store.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
-    }
-  }
-  for (Brick& brick : store.bricks()) {
-    for (SurfaceCell& cell : brick.cells) cell.fold_axes = {};
-  }
-  for (const auto& [key, cell] : folds_) {
-    if (key.level > 0 || split_.contains(key)) continue;
-    const auto axes = static_cast<std::uint8_t>(fold_axes_of(cell));
-    const auto place = store.find(key.lo);
-    for (int axis = 0; axis < 3; ++axis) {
-      store.cell(*place).fold_axes[axis] |= axes;
       const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick);
-      if (next) store.cell(*next).fold_axes[axis] |= axes;
+      if (!next) continue;
+      store.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
+      bricks.push_back(next->brick);
     }
   }
+  sort_and_unite(bricks);
+  return bricks;
 }
 
 unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
@@ -293,34 +306,23 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].empty()) continue;
     edges_.insert(edges[i]);
-    edge_roots_.push_back(
-        {static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(found[i].size())});
-    for (const EdgeRoot& root : found[i]) {
-      points_.push_back(root.point);
-      rises_.push_back(root.side);
-    }
+    edge_roots_.push_back(vertices_.add(found[i]));
   }
 }
 
 void SplitLattice::add_roots_on(int axis, const FineIndex& lo, int level, int side,
                                 std::vector<FaceRoot>& roots) const {
   const Coord from = lattice_.plane(axis, lo[axis]), to = lattice_.plane(axis, lo[axis] + fine_size(level));
-  const auto add = [&](std::uint32_t vertex, const CoordPoint& position, int rise) {
-    if (position[axis] > from && position[axis] < to) roots.push_back({vertex, position, side, rise});
-  };
+  VertexRange found;
   const LatticeKey edge = whole_edge(axis, lo);
   if (edge.level == 0) {
-    const auto place = store_.find(edge.lo);
-    if (!place) return;
-    const VertexRange roots_there = store_.edge_roots(*place, axis);
-    for (std::uint32_t v = roots_there.first; v < roots_there.first + roots_there.count; ++v) {
-      add(v, store_.root(v).position, store_.rise(v));
-    }
-  } else if (const auto number = edges_.find(edge)) {
-    const VertexRange& found = edge_roots_[*number];
-    for (std::uint32_t i = found.first; i < found.first + found.count; ++i) {
-      add(first_vertex() + i, points_[i].position, rises_[i]);
-    }
+    if (const auto place = store_.find(edge.lo)) found = store_.edge_roots(*place, axis);
+  } else {
+    if (const auto number = edges_.find(edge)) found = edge_roots_[*number];
+  }
+  for (std::uint32_t v = found.first; v < found.first + found.count; ++v) {
+    const CoordPoint& position = vertices_[v].position;
+    if (position[axis] > from && position[axis] < to) roots.push_back({v, position, side, vertices_.rise(v)});
   }
 }
 
@@ -383,16 +385,11 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
     const FaceCurves& found = curves[i];
     if (found.links.empty()) continue;
     faces_.insert(faces[i]);
-    const FaceLinks face{static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(points_.size()),
-                         static_cast<std::uint32_t>(found.links.size()),
-                         static_cast<std::uint32_t>(found.points.size())};
-    face_links_.push_back(face);
-    const auto numbered = [&](std::uint32_t v) {
-      return v >= kLocalVertex ? first_vertex() + face.first_point + (v - kLocalVertex) : v;
-    };
+    const VertexRange inside = vertices_.add(found.points);
+    face_links_.push_back({static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(found.links.size()),
+                           inside});
+    const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? inside.first + (v - kLocalVertex) : v; };
     for (const Link& link : found.links) links_.push_back({numbered(link.from), numbered(link.to)});
-    points_.insert(points_.end(), found.points.begin(), found.points.end());
-    rises_.resize(points_.size(), 0);
   }
 }
 

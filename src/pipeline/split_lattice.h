@@ -6,7 +6,7 @@
 
 #include "core/key_index.h"
 #include "patch/fold_triangulator.h"
-#include "pipeline/cell_store.h"
+#include "pipeline/traced_vertices.h"
 
 namespace gaussmesh {
 
@@ -19,6 +19,9 @@ struct UncertifiedPlace {
 /// Cells of any size that keep their size without a certificate, and what is cut along folds in them.
 using FoldCellMap = std::unordered_map<CellKey, FoldCell, CellKeyHash>;
 
+/// Marks in the store which fold points the curves on faces of level 0 need.
+void mark_folds(const FoldCellMap& folds, CellStore& store);
+
 /// A smaller cell with its certificate.
 struct LeafCell {
   CellKey key;
@@ -30,7 +33,6 @@ struct LeafCell {
 struct SplitCell {
   CellKey key;
   std::vector<LeafCell> leaves;  ///< without those that were split in their turn, later
-  bool is_changed = true;        ///< the last call of split() changed the leaves or the curves round them
 };
 
 /// Cells below level 0, the roots on their edges and the curves on their faces.
@@ -40,34 +42,31 @@ struct SplitCell {
 /// split in rounds: what was found in one is kept in the next, with the numbers of its vertices.
 class SplitLattice {
  public:
-  /// No cell is split at first.
-  SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store, const FoldCellMap& folds)
-      : field_(field), lattice_(lattice), store_(store), folds_(folds) {}
+  /// No cell is split at first. Vertices are added to `vertices`.
+  SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store, const FoldCellMap& folds,
+               TracedVertices& vertices)
+      : field_(field), lattice_(lattice), store_(store), folds_(folds), vertices_(vertices) {}
 
   /// Splits cells that are of level 0 or leaves, each as often as it needs; cells in `folds` keep their size. Finds
   /// the roots and curves of the new leaves, unless there are uncertified places.
   void split(std::span<const CellKey> cells, int threads);
 
-  /// Marks in the store which cells of level 0 are split, and their faces that smaller cells have taken over or that
-  /// need fold points.
-  void mark_cells(CellStore& store) const;
+  /// Marks in the store which cells of level 0 the last call of split() split, and their faces, which smaller cells
+  /// have taken over. @return the bricks with such faces, in rising order
+  std::vector<std::uint32_t> mark_cells(CellStore& store) const;
 
-  /// By brick, whether the last call of split() changed curves round unsplit cells of level 0.
-  std::vector<bool> changed_bricks() const;
+  /// Bricks with unsplit cells of level 0 round which the last call of split() changed curves of smaller cells, in
+  /// rising order.
+  std::vector<std::uint32_t> changed_bricks() const;
+
+  /// Entries of cells() whose leaves, or the curves round them, the last call of split() changed, in rising order;
+  /// new ones among them.
+  const std::vector<std::uint32_t>& changed_cells() const { return changed_cells_; }
 
   const std::vector<SplitCell>& cells() const { return cells_; }
   std::size_t split_cells() const { return split_.size(); }
   const std::vector<UncertifiedPlace>& uncertified() const { return uncertified_; }
   bool is_split(const CellKey& key) const { return split_.contains(key); }
-
-  /// Number of the first vertex that is neither a root of level 0 nor of these cells.
-  std::uint32_t next_vertex() const { return first_vertex() + static_cast<std::uint32_t>(points_.size()); }
-
-  /// The vertices from the last root of level 0 up to next_vertex().
-  const std::vector<SurfacePoint>& points() const { return points_; }
-
-  /// Vertices inside faces that smaller cells have taken over since: nothing names them any more.
-  const std::vector<std::uint32_t>& dead_vertices() const { return dead_vertices_; }
 
   bool is_divided(int axis, const FineIndex& lo, int level) const;
   std::span<const Link> face_links(int axis, const FineIndex& lo, int level) const;
@@ -94,9 +93,8 @@ class SplitLattice {
   };
   struct FaceLinks {
     std::uint32_t first_link = 0;
-    std::uint32_t first_point = 0;  ///< index into points_
     std::uint32_t link_count = 0;
-    std::uint32_t point_count = 0;
+    VertexRange vertices;  ///< inside the face
   };
   /// Edges or faces with numbers first .. last - 1, of a leaf in a split cell.
   struct Task {
@@ -106,7 +104,6 @@ class SplitLattice {
     std::uint32_t last = 0;
   };
 
-  std::uint32_t first_vertex() const { return store_.root_vertices(); }
   static LatticeKey lattice_key(const FineIndex& lo, int axis, int level) {
     return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
   }
@@ -132,19 +129,18 @@ class SplitLattice {
   const Lattice& lattice_;
   const CellStore& store_;
   const FoldCellMap& folds_;
+  TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
   std::vector<CellKey> newly_split_;  ///< by the last call of split()
+  std::vector<std::uint32_t> changed_cells_;
   KeyIndex<LatticeKey, LatticeKeyHash> edges_;  ///< those that have roots
   KeyIndex<LatticeKey, LatticeKeyHash> faces_;  ///< those that have curves
-  std::vector<VertexRange> edge_roots_;  ///< by number of the edge; indices into points_
-  std::vector<FaceLinks> face_links_;  ///< by number of the face
+  std::vector<VertexRange> edge_roots_;         ///< by number of the edge
+  std::vector<FaceLinks> face_links_;           ///< by number of the face
   std::vector<Link> links_;
-  std::vector<SurfacePoint> points_;  ///< vertices that smaller cells add
-  std::vector<std::int8_t> rises_;    ///< by point: EdgeRoot::side of a root
-  std::vector<std::uint32_t> dead_vertices_;
 };
 
 }  // namespace gaussmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/lattice_degenerate.h"
 #include "gaussmesh/error.h"
@@ -39,11 +40,19 @@ void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult&
 
 /// The proof looked at cells at least as small as the leaves.
 void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult& result) {
-  for (const SplitCell& cell : split.cells()) {
-    for (const LeafCell& leaf : cell.leaves) {
+  for (const std::uint32_t cell : split.changed_cells()) {
+    for (const LeafCell& leaf : split.cells()[cell].leaves) {
       result.smallest_box = std::min(result.smallest_box, lattice.cell_size() * std::ldexp(1.0, -leaf.key.level));
     }
   }
+}
+
+/// Both lists as one, in rising order and each number once.
+std::vector<std::uint32_t> united(std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end());
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
 }
 
 TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double least_corner_cosine, int threads,
@@ -60,25 +69,31 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     result.uncertified = search.uncertified;
     return result;
   }
-  LevelZeroTracer faces(field, lattice, store);
+  mark_folds(search.folds, store);
+  TracedVertices vertices(store);
+  SplitLattice split(field, lattice, store, search.folds, vertices);
   CellTriangulator cells(field, lattice, store, least_corner_cosine);
-  SplitLattice split(field, lattice, store, search.folds);
+  std::vector<std::uint32_t> all_bricks(store.bricks().size());
+  std::iota(all_bricks.begin(), all_bricks.end(), 0u);
   std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
     split.split(to_split, threads);
-    split.mark_cells(store);
     note_leaves(split, lattice, result);
     if (!split.uncertified().empty()) {
       result.uncertified = split.uncertified();
       return result;
     }
-    faces.trace(split.next_vertex(), threads);
+    const std::vector<std::uint32_t> taken_over = split.mark_cells(store);
+    const std::vector<std::uint32_t>& to_trace = round == 0 ? all_bricks : taken_over;
+    trace_bricks(field, lattice, store, to_trace, vertices, threads);
     finished("curves");
-    PatchOutcome outcome = cells.triangulate(split, search.folds, faces, threads);
+    const std::vector<std::uint32_t> to_patch =
+        round == 0 ? all_bricks : united(bricks_that_see(store, to_trace), split.changed_bricks());
+    PatchOutcome outcome = cells.triangulate(split, search.folds, vertices, to_patch, threads);
     if (outcome.failed.empty()) {
       result.cells_split = split.split_cells();
       result.cells_cut_by_folds = outcome.fold_cells;
-      result.surface = std::move(cells).join(store, split, threads);
+      result.surface = std::move(cells).join(store, vertices, threads);
       finished("patches");
       return result;
     }
