@@ -9,14 +9,21 @@
 namespace gaussmesh {
 namespace {
 
+/// A root without what the edge that it is on tells.
+struct RootOnEdge {
+  Coord at = 0;
+  std::array<float, 3> normal{};
+  std::int8_t side = 0;
+};
+
 /// Fills one brick. Keeps the buffers of its stages: one for each thread.
 class BrickBuilder {
  public:
   BrickBuilder(const GaussianField& field, const Lattice& lattice)
       : lattice_(lattice), walker_(field, lattice), finder_(field, lattice) {}
 
-  /// @param roots  gets those of the brick
-  Brick build(const BrickIndex& index, std::vector<EdgeRoot>& roots) {
+  /// @param roots  gets those of the brick, by cell and axis
+  Brick build(const BrickIndex& index, std::vector<RootOnEdge>& roots) {
     roots_ = &roots;
     Brick brick;
     brick.index = index;
@@ -52,7 +59,9 @@ class BrickBuilder {
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
       cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());
-      roots_->insert(roots_->end(), roots.begin(), roots.end());
+      for (const EdgeRoot& root : roots) {
+        roots_->push_back({root.point.position[axis], root.point.normal, root.side});
+      }
     }
     brick.cells.push_back(cell);
   }
@@ -70,8 +79,14 @@ class BrickBuilder {
   const Lattice& lattice_;
   BrickWalker walker_;
   EdgeRootFinder finder_;
-  std::vector<EdgeRoot>* roots_ = nullptr;
+  std::vector<RootOnEdge>* roots_ = nullptr;
 };
+
+FineIndex lowest_corner(const BrickIndex& brick, int local) {
+  FineIndex lo = brick_origin(brick);
+  for (int k = 0; k < 3; ++k, local /= kBrickCells) lo[k] += (local % kBrickCells) * kFinePerCell;
+  return lo;
+}
 
 }  // namespace
 
@@ -84,7 +99,7 @@ std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);
   std::vector<Brick> all(found.size());
-  std::vector<std::vector<EdgeRoot>> roots(found.size());
+  std::vector<std::vector<RootOnEdge>> roots(found.size());
   parallel_for_workers(found.size(), threads, 1, [&] {
     return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable {
       all[i] = builder.build(found[i], roots[i]);
@@ -99,12 +114,22 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
   roots_.resize(vertices);
   rises_.resize(vertices);
   parallel_for(all.size(), threads, [&](std::size_t i) {
-    std::uint32_t vertex = all[i].first_vertex;
-    for (const EdgeRoot& root : roots[i]) {
-      roots_[vertex] = root.point;
-      rises_[vertex++] = root.side;
+    const Brick& brick = all[i];
+    for (const SurfaceCell& cell : brick.cells) {
+      const CoordPoint corner = lattice.point(gaussmesh::lowest_corner(brick.index, cell.local));
+      std::uint32_t n = cell.first_root;
+      for (int axis = 0; axis < 3; ++axis) {
+        for (int j = 0; j < cell.root_count[axis]; ++j, ++n) {
+          const RootOnEdge& root = roots[i][n];
+          SurfacePoint& point = roots_[brick.first_vertex + n];
+          point.position = corner;
+          point.position[axis] = root.at;
+          point.normal = root.normal;
+          rises_[brick.first_vertex + n] = root.side;
+        }
+      }
     }
-    roots[i] = std::vector<EdgeRoot>();
+    roots[i] = std::vector<RootOnEdge>();
   });
   for (Brick& brick : all) {
     if (brick.cells.empty()) continue;
@@ -142,10 +167,7 @@ std::optional<std::uint32_t> CellStore::find_brick(const BrickIndex& index) cons
 }
 
 FineIndex CellStore::lowest_corner(const Place& place) const {
-  FineIndex lo = brick_origin(bricks_[place.brick].index);
-  int local = cell(place).local;
-  for (int k = 0; k < 3; ++k, local /= kBrickCells) lo[k] += (local % kBrickCells) * kFinePerCell;
-  return lo;
+  return gaussmesh::lowest_corner(bricks_[place.brick].index, cell(place).local);
 }
 
 VertexRange CellStore::edge_roots(const Place& place, int axis) const {

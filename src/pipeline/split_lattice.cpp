@@ -25,7 +25,7 @@ constexpr int kLastPlainLevel = 3;
 
 /// Split cells whose edges and faces are looked at together: most of them turn out to have no surface, and are not
 /// kept.
-constexpr std::size_t kCellsAtOnce = 4096;
+constexpr std::size_t kCellsAtOnce = 512;
 
 /// Leaves whose edges or faces a thread takes at a time.
 constexpr int kTasksAtOnce = 16;
@@ -132,7 +132,7 @@ void SplitLattice::take_from_leaves(const CellKey& key) {
 void SplitLattice::drop_faces(const CellKey& key) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const std::int64_t by : {std::int64_t{0}, fine_size(key.level)}) {
-      const auto face = faces_.find(lattice_key(moved(key.lo, axis, by), axis, key.level));
+      const auto face = faces_.find(LatticeKey(moved(key.lo, axis, by), axis, key.level));
       if (!face) continue;
       vertices_.drop(face_links_[*face].vertices);
       face_links_[*face] = {};
@@ -200,7 +200,7 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
   unsigned axes = 0;
   if (folds_.empty()) return axes;
   for (const std::int64_t by : {std::int64_t{0}, -fine_size(face.level)}) {
-    const CellKey beside{moved(face.lo, face.axis, by), face.level};
+    const CellKey beside{moved(face.lo(), face.axis, by), face.level};
     for (int level = 0; level <= face.level; ++level) {
       const CellKey key = cell_around(beside, level);
       const auto it = folds_.find(key);
@@ -253,7 +253,7 @@ void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver&
 
 SplitLattice::LatticeKey SplitLattice::whole_edge(int axis, const FineIndex& lo) const {
   const int level = std::max(level_of_plane(lo[first_axis(axis)]), level_of_plane(lo[second_axis(axis)]));
-  return lattice_key(moved(lo, axis, round_down(lo[axis], fine_size(level)) - lo[axis]), axis, level);
+  return LatticeKey(moved(lo, axis, round_down(lo[axis], fine_size(level)) - lo[axis]), axis, level);
 }
 
 void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads) {
@@ -288,17 +288,17 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
                                cell_box(lattice_, task.leaf));
       for (std::uint32_t i = task.first; i < task.last; ++i) {
         const LatticeKey& edge = edges[i];
-        const FineIndex end = moved(edge.lo, edge.axis, fine_size(edge.level));
+        const FineIndex end = moved(edge.lo(), edge.axis, fine_size(edge.level));
         const auto find = [&](const LocalModel& model) {
           const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
-                                         lattice_.point(edge.lo), lattice_.plane(edge.axis, end[edge.axis]),
+                                         lattice_.point(edge.lo()), lattice_.plane(edge.axis, end[edge.axis]),
                                          {Side::kUnknown, Side::kUnknown, is_monotone[i] != 0});
           found[i].assign(roots.begin(), roots.end());
         };
         if (edge.level == task.leaf.level) {
           find(in_leaf);
         } else {
-          find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(), lattice_box(lattice_, edge.lo, end)));
+          find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(), lattice_box(lattice_, edge.lo(), end)));
         }
       }
     };
@@ -316,7 +316,7 @@ void SplitLattice::add_roots_on(int axis, const FineIndex& lo, int level, int si
   VertexRange found;
   const LatticeKey edge = whole_edge(axis, lo);
   if (edge.level == 0) {
-    if (const auto place = store_.find(edge.lo)) found = store_.edge_roots(*place, axis);
+    if (const auto place = store_.find(edge.lo())) found = store_.edge_roots(*place, axis);
   } else {
     if (const auto number = edges_.find(edge)) found = edge_roots_[*number];
   }
@@ -330,10 +330,10 @@ void SplitLattice::collect_face_roots(const LatticeKey& face, std::vector<FaceRo
   const int a = first_axis(face.axis), b = second_axis(face.axis);
   const std::int64_t size = fine_size(face.level);
   roots.clear();
-  add_roots_on(a, face.lo, face.level, 0, roots);
-  add_roots_on(b, moved(face.lo, a, size), face.level, 1, roots);
-  add_roots_on(a, moved(face.lo, b, size), face.level, 2, roots);
-  add_roots_on(b, face.lo, face.level, 3, roots);
+  add_roots_on(a, face.lo(), face.level, 0, roots);
+  add_roots_on(b, moved(face.lo(), a, size), face.level, 1, roots);
+  add_roots_on(a, moved(face.lo(), b, size), face.level, 2, roots);
+  add_roots_on(b, face.lo(), face.level, 3, roots);
 }
 
 bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
@@ -350,7 +350,7 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
       for (int axis = 0; axis < 3; ++axis) {
         for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
           const FineIndex lo = moved(leaf.key.lo, axis, by);
-          const LatticeKey face = lattice_key(lo, axis, leaf.key.level);
+          const LatticeKey face = LatticeKey(lo, axis, leaf.key.level);
           if (is_divided(axis, lo, leaf.key.level) || faces_.contains(face)) continue;
           const auto [number, is_new] = faces.insert(face);
           if (is_new) certificates.push_back(kFaceUncertified);
@@ -373,10 +373,10 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
       for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
         const LatticeKey& face = faces[i];
         const std::int64_t size = fine_size(face.level);
-        const FineIndex end = moved(moved(face.lo, first_axis(face.axis), size), second_axis(face.axis), size);
+        const FineIndex end = moved(moved(face.lo(), first_axis(face.axis), size), second_axis(face.axis), size);
         collect_face_roots(face, roots);
         tracer.set_plain(face.level <= kLastPlainLevel);
-        curves[i] = tracer.trace(face.axis, lattice_.point(face.lo), lattice_.point(end), certificates[i], roots,
+        curves[i] = tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificates[i], roots,
                                  fold_axes(face));
       }
     };
@@ -394,7 +394,7 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
 }
 
 std::span<const Link> SplitLattice::face_links(int axis, const FineIndex& lo, int level) const {
-  const auto number = faces_.find(lattice_key(lo, axis, level));
+  const auto number = faces_.find(LatticeKey(lo, axis, level));
   if (!number) return {};
   const FaceLinks& face = face_links_[*number];
   return {links_.data() + face.first_link, face.link_count};

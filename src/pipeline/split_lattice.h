@@ -72,18 +72,35 @@ class SplitLattice {
   std::span<const Link> face_links(int axis, const FineIndex& lo, int level) const;
 
  private:
-  struct LatticeKey {  ///< of an edge along `axis`, or of a face across it
-    FineIndex lo{};
+  /// Of an edge along `axis`, or of a face across it. Small: with default settings there are as many as triangles.
+  struct LatticeKey {
+    std::array<std::int32_t, 3> cell{};   ///< of level 0 that has the lowest corner
+    std::array<std::uint16_t, 3> part{};  ///< the corner in it, in fine planes
+    static_assert(kMaxLevel <= 16);
     std::int8_t axis = 0;
     std::int8_t level = 0;
+
+    LatticeKey(const FineIndex& lo, int of_axis, int of_level)
+        : axis(static_cast<std::int8_t>(of_axis)), level(static_cast<std::int8_t>(of_level)) {
+      for (int k = 0; k < 3; ++k) {
+        cell[k] = static_cast<std::int32_t>(lo[k] >> kMaxLevel);
+        part[k] = static_cast<std::uint16_t>(lo[k] & (kFinePerCell - 1));
+      }
+    }
+    FineIndex lo() const {
+      FineIndex result;
+      for (int k = 0; k < 3; ++k) result[k] = std::int64_t{cell[k]} * kFinePerCell + part[k];
+      return result;
+    }
     bool operator==(const LatticeKey& other) const {
-      return lo[0] == other.lo[0] && lo[1] == other.lo[1] && lo[2] == other.lo[2] && axis == other.axis &&
-             level == other.level;
+      return cell[0] == other.cell[0] && cell[1] == other.cell[1] && cell[2] == other.cell[2] &&
+             part[0] == other.part[0] && part[1] == other.part[1] && part[2] == other.part[2] &&
+             axis == other.axis && level == other.level;
     }
   };
   struct LatticeKeyHash {
     std::size_t operator()(const LatticeKey& key) const {
-      return CellKeyHash{}({key.lo, 4 * key.level + key.axis});
+      return CellKeyHash{}({key.lo(), 4 * key.level + key.axis});
     }
   };
   struct Branch {
@@ -104,9 +121,6 @@ class SplitLattice {
     std::uint32_t last = 0;
   };
 
-  static LatticeKey lattice_key(const FineIndex& lo, int axis, int level) {
-    return {lo, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(level)};
-  }
   static Task task(const SplitCell& cell, const LeafCell& leaf, std::size_t first, std::size_t last) {
     return {cell.key, leaf.key, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
   }

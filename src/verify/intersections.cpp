@@ -44,19 +44,21 @@ class PatchTester {
       for (const std::uint32_t number : block) list(number);
     });
     boxes_.finish();
-    is_placed_.assign(triangles_.size(), 0);
-    if (placed_.size() < triangles_.size()) placed_.resize(2 * triangles_.size());
+    place_.assign(triangles_.size(), kNone);
+    placed_.clear();
     for (std::size_t i = 0; i < own; ++i) {
       const FlatFans fans = flat_fans_of(triangles_[i]);
       boxes_.for_each_meeting(i, [&](std::size_t j) {
-        if (!are_in_one(fans, triangles_[j]) && meet_beyond_shared(placed(i), placed(j)))
+        if (are_in_one(fans, triangles_[j])) return;
+        const std::uint32_t s = place(i), t = place(j);
+        if (meet_beyond_shared(placed_[s], placed_[t]))
           append(found, triangles_[i].number(), triangles_[j].number());
       });
     }
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~0u;  // no vertex
+  static constexpr std::uint32_t kNone = ~0u;  // no vertex, or not in placed_
 
   typedef std::uint32_t Numbers __attribute__((vector_size(16)));
 
@@ -96,10 +98,13 @@ class PatchTester {
     return (shared[0] | shared[1] | shared[2]) != 0;
   }
 
-  const PlacedTriangle& placed(std::size_t i) {
-    if (is_placed_[i] == 0) placed_[i] = PlacedTriangle(mesh_, mesh_.triangles[triangles_[i].number()]);
-    is_placed_[i] = 1;
-    return placed_[i];
+  /// Where a triangle is in placed_.
+  std::uint32_t place(std::size_t i) {
+    if (place_[i] == kNone) {
+      place_[i] = static_cast<std::uint32_t>(placed_.size());
+      placed_.emplace_back(mesh_, mesh_.triangles[triangles_[i].number()]);
+    }
+    return place_[i];
   }
 
   const TriangleMesh& mesh_;
@@ -107,8 +112,8 @@ class PatchTester {
   const FanFacts& facts_;
   std::vector<Listed> triangles_;       // the patch's, then those of later ones that come near it
   CoarseBoxes boxes_;                   // of triangles_
-  std::vector<PlacedTriangle> placed_;  // of triangles_, as far as they were asked for
-  std::vector<std::uint8_t> is_placed_;
+  std::vector<PlacedTriangle> placed_;  // those of triangles_ that were asked for
+  std::vector<std::uint32_t> place_;    // by triangle, where it is in placed_
 };
 
 }  // namespace
