@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
@@ -32,16 +30,25 @@ void exponents_in(const double* x, const double* y, const double* z, const doubl
   }
 }
 
-/// Copies chosen entries and gives their least and largest; there is at least one.
-std::pair<double, double> gather(const double* from, const std::uint32_t* index, std::size_t n, double* to) {
-  double least = from[index[0]], largest = least;
+struct Extremes {
+  double least, largest;
+};
+
+GAUSSMESH_SIMD_CLONES
+Extremes extremes_of(const double* values, std::size_t n) {
+  double least = values[0], largest = least;
+#pragma omp simd reduction(min : least) reduction(max : largest)
   for (std::size_t i = 0; i < n; ++i) {
-    const double v = from[index[i]];
-    to[i] = v;
-    least = v < least ? v : least;
-    largest = v > largest ? v : largest;
+    least = values[i] < least ? values[i] : least;
+    largest = values[i] > largest ? values[i] : largest;
   }
   return {least, largest};
+}
+
+/// Copies chosen entries and gives their least and largest; there is at least one.
+Extremes gather(const double* from, const std::uint32_t* index, std::size_t n, double* to) {
+  for (std::size_t i = 0; i < n; ++i) to[i] = from[index[i]];
+  return extremes_of(to, n);
 }
 
 }  // namespace
@@ -122,9 +129,11 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
   resize(padded());
   for (std::size_t i = count; i < padded(); ++i) kept[i] = kept[0];
   const std::size_t n = padded();
-  std::tie(lo[0], hi[0]) = gather(parent.x.data(), kept.data(), n, x.data());
-  std::tie(lo[1], hi[1]) = gather(parent.y.data(), kept.data(), n, y.data());
-  std::tie(lo[2], hi[2]) = gather(parent.z.data(), kept.data(), n, z.data());
+  const Extremes in_x = gather(parent.x.data(), kept.data(), n, x.data());
+  const Extremes in_y = gather(parent.y.data(), kept.data(), n, y.data());
+  const Extremes in_z = gather(parent.z.data(), kept.data(), n, z.data());
+  lo = {in_x.least, in_y.least, in_z.least};
+  hi = {in_x.largest, in_y.largest, in_z.largest};
   const auto [w_lo, w_hi] = gather(parent.w.data(), kept.data(), n, w.data());
   w_size = std::max(std::abs(w_lo), std::abs(w_hi));
   for (std::size_t i = count; i < n; ++i) w[i] = kNoWeight;
