@@ -19,8 +19,8 @@ std::int64_t round_down(std::int64_t n, std::int64_t size) {
   return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
 }
 
-/// Down to this level cells are not smaller than the parts that proofs look at in cells of level 0, and take as
-/// many atoms; in smaller ones, near singular places, atoms left out may decide.
+/// Down to this level cells are not smaller than the parts that proofs look at in cells of level 0, and their edges
+/// and faces take as many atoms; in smaller ones, near singular places, atoms left out may decide.
 constexpr int kLastPlainLevel = 3;
 
 /// Split cells whose edges and faces are looked at together: most of them turn out to have no surface, and are not
@@ -224,12 +224,13 @@ void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, Cel
   }
 }
 
+/// Where no axis was found for a cell, atoms that its list leaves out are often the reason: its parts take them.
 void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const {
   branch.split.push_back(key);
   for (int c = 0; c < 8; ++c) {
     const CellKey child = child_cell(key, c);
     const Box box = cell_box(lattice_, child);
-    const NearAtoms& near = around.within(proof_reach(child.level));
+    const NearAtoms& near = around.within(Reach::kFine);
     const CellCertificate certificate =
         prover.certify(near, LocalModel(near, field_.decay(), box), proof_depth(child.level));
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;

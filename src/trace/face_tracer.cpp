@@ -13,9 +13,6 @@ namespace {
 /// A rectangle is not cut below this (units): ten times the distance at which roots are told apart.
 constexpr Coord kSmallestRect = 100;
 
-/// In parts of a face that are smaller than this fraction of it, atoms left out may decide.
-constexpr Coord kPlainParts = 8;
-
 /// How often a rectangle is halved in search of an axis before it is cut.
 constexpr int kProofHalvings = 3;
 
@@ -62,7 +59,7 @@ PlanePoint FaceTracer::plane(int point) const {
 
 bool FaceTracer::is_plain(const Rect& rect) const {
   const int a = first_axis(axis_);
-  return is_plain_ && (rect.hi[a] - rect.lo[a]) * kPlainParts >= face_.hi[a] - face_.lo[a];
+  return is_plain_ && rect.hi[a] - rect.lo[a] == face_.hi[a] - face_.lo[a];
 }
 
 const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,

@@ -69,8 +69,8 @@ class FaceTracer {
   /// lives and stays where it is as long as they are traced.
   void take_atoms_from(LocalAtoms& around) { around_ = &around; }
 
-  /// In the faces to come atoms beyond Reach::kProof and kPlain do not matter (or do, which is so at first): they
-  /// are not much smaller than the parts that proofs of whole cells look at.
+  /// In the faces to come atoms beyond Reach::kProof and kPlain do not matter (or do, which is so at first), unless a
+  /// face has to be cut: then those left out are mostly the reason.
   void set_plain(bool is_plain) { is_plain_ = is_plain; }
 
   /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`

@@ -43,7 +43,7 @@ class Memory(CliTest):
         return free, limited
 
     def test_keeps_the_limit_and_the_mesh(self):
-        free, limited = self.both("128M", "--raw", "--spacing", 0.08, "--threads", 2)
+        free, limited = self.both("128M", "--raw", "--spacing", 0.06, "--threads", 2)
         self.assertGreater(free, 140 * MIB, "a limit of 128M is one")
         self.assertLess(limited, 128 * MIB)
 
