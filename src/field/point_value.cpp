@@ -10,11 +10,19 @@
 namespace gaussmesh {
 namespace {
 
+/// log(phi / c) where no atom counts.
+constexpr double kNothing = -700.0;
+
 /// Sums of exp(e_i - e_max), and of that times the offset of the point from the atom.
 struct WeightSums {
   double total = 0.0;
   double ux = 0.0, uy = 0.0, uz = 0.0;
-  double xx = 0.0, xy = 0.0, xz = 0.0;   ///< of the products of the offsets with that along an axis
+};
+
+/// The same, and those of the products of the offsets with that along an axis.
+struct WeightSumsAlong {
+  WeightSums sums;
+  double xx = 0.0, xy = 0.0, xz = 0.0;
 };
 
 GAUSSMESH_SIMD_CLONES
@@ -32,7 +40,24 @@ double largest_of(const double* x, const double* y, const double* z, const doubl
 
 GAUSSMESH_SIMD_CLONES
 WeightSums weight_sums(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
-                       double px, double py, double pz, double shift, const double* along, double p_along) {
+                       double px, double py, double pz, double shift) {
+  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
+#pragma omp simd reduction(+ : total, sx, sy, sz)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
+    const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz) - shift);
+    total += a;
+    sx += a * ux;
+    sy += a * uy;
+    sz += a * uz;
+  }
+  return {total, sx, sy, sz};
+}
+
+GAUSSMESH_SIMD_CLONES
+WeightSumsAlong weight_sums_along(const double* x, const double* y, const double* z, const double* w, std::size_t n,
+                                  double d, double px, double py, double pz, double shift, const double* along,
+                                  double p_along) {
   double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0, sxx = 0.0, sxy = 0.0, sxz = 0.0;
 #pragma omp simd reduction(+ : total, sx, sy, sz, sxx, sxy, sxz)
   for (std::size_t i = 0; i < n; ++i) {
@@ -47,7 +72,24 @@ WeightSums weight_sums(const double* x, const double* y, const double* z, const 
     sxy += au * uy;
     sxz += au * uz;
   }
-  return {total, sx, sy, sz, sxx, sxy, sxz};
+  return {{total, sx, sy, sz}, sxx, sxy, sxz};
+}
+
+/// Whether sums of weights relative to c are numbers: not so far from the surface.
+bool is_in_range(const WeightSums& sums) { return sums.total > 1e-100 && sums.total < 1e100; }
+
+/// @param shift  what the exponents of the sums were lowered by
+PointValue value_of(const WeightSums& s, double shift, const NearAtoms& atoms, double decay) {
+  PointValue result;
+  result.value = shift + std::log(s.total);
+  const double factor = -2.0 * decay / s.total;
+  result.gradient = {factor * s.ux, factor * s.uy, factor * s.uz};
+  // The atoms that weigh anything have exponents near the value: w_i and d |u_i|^2 differ by about that. The largest
+  // log-weight bounds both.
+  const double exponent_size = 2.0 * atoms.w_size + std::abs(result.value) + kFineTruncation;
+  const double log_error = 4e-16 * (std::abs(result.value) + 1.0);
+  result.error = 1.001 * weight_error(exponent_size, atoms.size()) + log_error;
+  return result;
 }
 
 }  // namespace
@@ -63,40 +105,39 @@ double largest_exponent(const NearAtoms& atoms, double decay, const Vec3& p) {
 }
 
 PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& p) {
-  return evaluate_along(atoms, decay, p, 0).point;
+  if (atoms.size() == 0) return {kNothing, 0.0, {}};
+  const auto sums_with = [&](double shift) {
+    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0],
+                       p[1], p[2], shift);
+  };
+  const WeightSums sums = sums_with(0.0);
+  if (is_in_range(sums)) return value_of(sums, 0.0, atoms, decay);
+  const double shift = largest_exponent(atoms, decay, p);
+  return value_of(sums_with(shift), shift, atoms, decay);
 }
 
 LineValue evaluate_along(const NearAtoms& atoms, double decay, const Vec3& p, int axis) {
-  const std::size_t n = atoms.size();
   LineValue line;
-  PointValue& result = line.point;
-  if (n == 0) {
-    result.value = -700.0;
+  if (atoms.size() == 0) {
+    line.point.value = kNothing;
     return line;
   }
   const double* along = axis == 0 ? atoms.x.data() : axis == 1 ? atoms.y.data() : atoms.z.data();
   const auto sums_with = [&](double shift) {
-    return weight_sums(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay, p[0], p[1],
-                       p[2], shift, along, p[axis]);
+    return weight_sums_along(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.padded(), decay,
+                             p[0], p[1], p[2], shift, along, p[axis]);
   };
   double shift = 0.0;
-  WeightSums s = sums_with(shift);
-  if (!(s.total > 1e-100 && s.total < 1e100)) {  // far from the surface: keep the exponents in range
+  WeightSumsAlong s = sums_with(shift);
+  if (!is_in_range(s.sums)) {
     shift = largest_exponent(atoms, decay, p);
     s = sums_with(shift);
   }
-  result.value = shift + std::log(s.total);
-  const double factor = -2.0 * decay / s.total;
-  result.gradient = {factor * s.ux, factor * s.uy, factor * s.uz};
-
-  // The atoms that weigh anything have exponents near the value: w_i and d |u_i|^2 differ by about that. The largest
-  // log-weight bounds both.
-  const double exponent_size = 2.0 * atoms.w_size + std::abs(result.value) + kFineTruncation;
-  const double log_error = 4e-16 * (std::abs(result.value) + 1.0);
-  result.error = 1.001 * weight_error(exponent_size, n) + log_error;
-  const double mean = (axis == 0 ? s.ux : axis == 1 ? s.uy : s.uz) / s.total;
-  const double f = 4.0 * decay * decay / s.total;
-  line.gradient_slope = {f * (s.xx - mean * s.ux), f * (s.xy - mean * s.uy), f * (s.xz - mean * s.uz)};
+  line.point = value_of(s.sums, shift, atoms, decay);
+  const double mean = (axis == 0 ? s.sums.ux : axis == 1 ? s.sums.uy : s.sums.uz) / s.sums.total;
+  const double f = 4.0 * decay * decay / s.sums.total;
+  line.gradient_slope = {f * (s.xx - mean * s.sums.ux), f * (s.xy - mean * s.sums.uy),
+                         f * (s.xz - mean * s.sums.uz)};
   line.gradient_slope[axis] -= 2.0 * decay;
   return line;
 }

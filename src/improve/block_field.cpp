@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kCellSize = 1.5;  // A: small beside the reach of an atom, large beside a triangle
 
+/// Log-weights, relative to c, below which an atom is left out, for rough and exact places.
+constexpr double kCuts[] = {16.0, 24.0};
+
 /// Lists are asked for with points this much outside their cells (in cells) by way of a Newton step.
 constexpr double kMargin = 0.1;
 
@@ -59,14 +62,15 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
     cells_[k] = std::max(1, static_cast<int>(std::ceil((box.hi[k] - box.lo[k]) / cell_size_ - 1e-9)));
     count *= static_cast<std::size_t>(cells_[k]);
   }
-  field.collect_near(wide, atoms_, kCut);
-  lists_.resize(count);
+  field.collect_near(wide, atoms_, kCuts[static_cast<int>(Accuracy::kExact)]);
+  for (auto& lists : lists_) lists.resize(count);
 }
 
-const NearAtoms& BlockField::atoms_at(const Vec3& point) {
+const NearAtoms& BlockField::atoms_at(const Vec3& point, Accuracy accuracy) {
   std::array<int, 3> index;
   for (int k = 0; k < 3; ++k) index[k] = slab_of((point[k] - box_.lo[k]) / cell_size_, cells_[k]);
-  AtomList& list = lists_[static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
+  AtomList& list = lists_[static_cast<std::size_t>(accuracy)]
+                         [static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
   if (list.is_made) return list.atoms;
   list.is_made = true;
   Box cell;
@@ -74,12 +78,12 @@ const NearAtoms& BlockField::atoms_at(const Vec3& point) {
     cell.lo[k] = box_.lo[k] + (index[k] - kMargin) * cell_size_;
     cell.hi[k] = box_.lo[k] + (index[k] + 1 + kMargin) * cell_size_;
   }
-  list.atoms.restrict_from(atoms_, cell, decay_, kCut);
+  list.atoms.restrict_from(atoms_, cell, decay_, kCuts[static_cast<std::size_t>(accuracy)]);
   return list.atoms;
 }
 
 FieldJet BlockField::jet(const Vec3& p) {
-  const NearAtoms& near = atoms_at(p);
+  const NearAtoms& near = atoms_at(p, Accuracy::kExact);
   const SecondSums s = second_moments(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(),
                                       decay_, p[0], p[1], p[2]);
   // grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by
@@ -105,7 +109,7 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
       accuracy == Accuracy::kExact ? kGoodStep : std::clamp(kRoughPart * farthest, kGoodStep, kRoughStep);
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
-    const PointValue v = evaluate(atoms_at(p), decay_, p);
+    const PointValue v = evaluate(atoms_at(p, accuracy), decay_, p);
     const double slope = length(v.gradient);
     if (!(slope > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.5 * farthest, 0.5 * farthest);

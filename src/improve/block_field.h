@@ -31,8 +31,8 @@ enum class Accuracy {
 };
 
 /// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
-/// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom; no bounds are kept,
-/// since the verdict on a finished mesh does not come from here.
+/// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where
+/// rough places are asked for; no bounds are kept, since the verdict on a finished mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);
@@ -49,21 +49,20 @@ class BlockField {
 
  private:
   static constexpr int kMostCells = 16;  ///< along an axis
-  static constexpr double kCut = 24.0;   ///< log-weight, relative to c, below which an atom is left out
 
   struct AtomList {
     NearAtoms atoms;
     bool is_made = false;
   };
 
-  const NearAtoms& atoms_at(const Vec3& point);
+  const NearAtoms& atoms_at(const Vec3& point, Accuracy accuracy);
 
   double decay_;
   Box box_;
   double cell_size_;
   std::array<int, 3> cells_{};
   NearAtoms atoms_;
-  std::vector<AtomList> lists_;
+  std::array<std::vector<AtomList>, 2> lists_;  ///< by accuracy
 };
 
 /// Principal curvature (1/A) of the level set through the jet's point, the larger one in absolute value.

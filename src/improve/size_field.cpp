@@ -16,30 +16,58 @@ double wanted_size(double curvature, const SizeTargets& targets) {
 /// Each edge once; those on the boundary have one half only.
 bool is_first_half(const HalfEdgeMesh& c, Index h) { return c.twin(h) == HalfEdgeMesh::kNone || h < c.twin(h); }
 
-/// Lowers sizes until none grows faster than kGrowth.
-void limit_growth(BlockMesh& mesh) {
-  const HalfEdgeMesh& c = mesh.connectivity;
-  bool changed = true;
-  const auto limit = [&](Index u, Index v) {
-    if (mesh.size[u] > mesh.size[v]) std::swap(u, v);
-    const double more = double(mesh.size[v]) - double(mesh.size[u]);
-    const Vec3 edge = mesh.at[v] - mesh.at[u];
-    if (more * more <= kGrowth * kGrowth * dot(edge, edge)) return;
-    const auto most = static_cast<float>(double(mesh.size[u]) + kGrowth * length(edge));
-    if (!(mesh.size[v] > most * 1.0001f)) return;
-    mesh.size[v] = most;
-    changed = true;
-  };
-  for (const Triangle& t : mesh.fixed) {
-    for (int i = 0; i < 3; ++i) limit(t[i], t[(i + 1) % 3]);
+/// Lowers sizes until none grows faster than kGrowth along an edge.
+class GrowthLimit {
+ public:
+  explicit GrowthLimit(BlockMesh& mesh) : mesh_(mesh), is_waiting_(mesh.at.size(), 0) {}
+
+  void apply() {
+    const HalfEdgeMesh& c = mesh_.connectivity;
+    do {
+      has_lowered_boundary_ = false;
+      for (const Triangle& t : mesh_.fixed) {
+        for (int i = 0; i < 3; ++i) limit(t[i], t[(i + 1) % 3]);
+      }
+      for (Index h = 0; h < c.half_edges(); ++h) {
+        if (c.has_triangle(h / 3) && is_first_half(c, h)) limit(c.from(h), c.to(h));
+      }
+      spread();
+    } while (has_lowered_boundary_);  // its edges are not at hand
   }
-  while (changed) {
-    changed = false;
-    for (Index h = 0; h < c.half_edges(); ++h) {
-      if (c.has_triangle(h / 3) && is_first_half(c, h)) limit(c.from(h), c.to(h));
+
+ private:
+  /// On from the inner vertices that have been lowered.
+  void spread() {
+    const HalfEdgeMesh& c = mesh_.connectivity;
+    for (std::size_t i = 0; i < lowered_.size(); ++i) {
+      const Index v = lowered_[i];
+      is_waiting_[v] = 0;
+      c.visit_star(v, [&](Index h) { limit(v, c.to(h)); });
+    }
+    lowered_.clear();
+  }
+
+  void limit(Index u, Index v) {
+    if (mesh_.size[u] > mesh_.size[v]) std::swap(u, v);
+    const double more = double(mesh_.size[v]) - double(mesh_.size[u]);
+    const Vec3 edge = mesh_.at[v] - mesh_.at[u];
+    if (more * more <= kGrowth * kGrowth * dot(edge, edge)) return;
+    const auto most = static_cast<float>(double(mesh_.size[u]) + kGrowth * length(edge));
+    if (!(mesh_.size[v] > most * 1.0001f)) return;
+    mesh_.size[v] = most;
+    if (v >= mesh_.connectivity.vertices() || !mesh_.connectivity.is_inner(v)) {
+      has_lowered_boundary_ = true;
+    } else if (!is_waiting_[v]) {
+      is_waiting_[v] = 1;
+      lowered_.push_back(v);
     }
   }
-}
+
+  BlockMesh& mesh_;
+  std::vector<Index> lowered_;             ///< inner vertices whose edges are to be looked at
+  std::vector<std::uint8_t> is_waiting_;   ///< whether a vertex is among them
+  bool has_lowered_boundary_ = false;
+};
 
 }  // namespace
 
@@ -60,7 +88,7 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
     mesh.size[u] = std::min(mesh.size[u], static_cast<float>(most));
     mesh.size[v] = std::min(mesh.size[v], static_cast<float>(most));
   }
-  limit_growth(mesh);
+  GrowthLimit(mesh).apply();
 }
 
 std::vector<Index> refine_sharp_edges(BlockMesh& mesh, float factor) {
