@@ -184,7 +184,7 @@ bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& 
     if (!starts_curve(from)) std::swap(from, to);
     points_[from.point].next = to.point;
     points_[from.point].piece = static_cast<int>(pieces_.size());
-    pieces_.push_back({rect, along});
+    pieces_.push_back({rect, along, Side::kUnknown, 0.0});
   }
   return true;
 }
@@ -326,7 +326,7 @@ void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
 void FaceTracer::insert_fold_points(int from, int axis) {
   constexpr int kSamples = 4;        // parts of a piece that are looked at for a change of sign
   const int to = points_[from].next;
-  const Piece piece = pieces_[points_[from].piece];
+  Piece& piece = pieces_[points_[from].piece];
   const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
   const double a = to_angstrom(points_[from].point.position[over]), b = to_angstrom(points_[to].point.position[over]);
   if (std::abs(b - a) < 1e-6) return;
@@ -345,7 +345,7 @@ void FaceTracer::insert_fold_points(int from, int axis) {
   }
 }
 
-double FaceTracer::find_fold_point(const Piece& piece, int axis, double lo, double hi, double lo_slope,
+double FaceTracer::find_fold_point(Piece& piece, int axis, double lo, double hi, double lo_slope,
                                    double hi_slope) {
   constexpr int kMostSteps = 100;    // every fourth one halves the bracket
   constexpr double kClosest = 2e-9;  // A: the coordinates' own unit
@@ -370,7 +370,7 @@ double FaceTracer::find_fold_point(const Piece& piece, int axis, double lo, doub
   return 0.5 * (lo + hi);
 }
 
-SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
+SurfacePoint FaceTracer::solve_on_piece(Piece& piece, double at) {
   const NearAtoms& atoms = root_atoms_of(piece.rect);
   const int along = piece.along;
   const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
@@ -380,11 +380,16 @@ SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
                                             piece.rect.hi[over] - 1);
   Vec3 start = to_angstrom(result.position), end = start;
   end[along] = to_angstrom(piece.rect.hi[along]);
-  const LocalModel model(atoms, field_.decay(), {start, end});
-  const bool inside_lo = is_inside(field_, atoms, model, start);
-  if (inside_lo == is_inside(field_, atoms, model, end)) throw LatticeDegenerate(start);
-  const LineRoot root = refine_root(atoms, field_.decay(), start, along, start[along], end[along], inside_lo,
-                                    0.5 * (start[along] + end[along]));
+  if (piece.lo == Side::kUnknown) {
+    const LocalModel model(atoms, field_.decay(), {start, end});
+    const bool inside_lo = is_inside(field_, atoms, model, start);
+    if (inside_lo == is_inside(field_, atoms, model, end)) throw LatticeDegenerate(start);
+    piece.lo = inside_lo ? Side::kInside : Side::kOutside;
+    piece.last = 0.5 * (start[along] + end[along]);
+  }
+  const LineRoot root = refine_root(atoms, field_.decay(), start, along, start[along], end[along],
+                                    piece.lo == Side::kInside, piece.last);
+  piece.last = root.position;
   result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom),
                                              piece.rect.lo[along] + 1, piece.rect.hi[along] - 1);
   result.normal = outward_normal(root.gradient);
@@ -392,8 +397,8 @@ SurfacePoint FaceTracer::solve_on_piece(const Piece& piece, double at) {
 }
 
 int FaceTracer::insert_between(int from, double at) {
-  const Piece piece = pieces_[points_[from].piece];
-  TracePoint point{solve_on_piece(piece, at), kLocalVertex, 0, false, points_[from].next, points_[from].piece};
+  const TracePoint& before = points_[from];
+  const TracePoint point{solve_on_piece(pieces_[before.piece], at), kLocalVertex, 0, false, before.next, before.piece};
   points_.push_back(point);
   return points_[from].next = static_cast<int>(points_.size()) - 1;
 }
@@ -409,7 +414,7 @@ int FaceTracer::insert_middle(int from) {
 int FaceTracer::insert_turning_point(int from) {
   // The fold point is where phi has no slope along the edge that both ends are on: bisection between the ends, whose
   // slopes have opposite signs; a hundredth of the arc is near enough, the point is on the surface anyway.
-  const Piece piece = pieces_[points_[from].piece];
+  Piece& piece = pieces_[points_[from].piece];
   const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
   Coord a = points_[from].point.position[over], b = points_[points_[from].next].point.position[over];
   if (std::abs(a - b) < 3) throw LatticeDegenerate(to_angstrom(points_[from].point.position));

@@ -95,6 +95,8 @@ class FaceTracer {
   struct Piece {
     Rect rect;
     int along = 0;  ///< axis along which the section is single-valued in rect
+    Side lo = Side::kUnknown;  ///< of the low end of `along`, all over the piece
+    double last = 0.0;         ///< coordinate along it of the point found last (A): the next is near
   };
   struct RectRoot {
     int point;
@@ -115,11 +117,11 @@ class FaceTracer {
   void keep_fold_points(const Chain& chain, int axis);
   void insert_fold_points(int from, int axis);
   /// Where on a piece the slope along `axis` changes its sign, between two places where its signs differ.
-  double find_fold_point(const Piece& piece, int axis, double lo, double hi, double lo_slope, double hi_slope);
+  double find_fold_point(Piece& piece, int axis, double lo, double hi, double lo_slope, double hi_slope);
   int insert_between(int from, double at);
   int insert_turning_point(int from);
   int insert_middle(int from);
-  SurfacePoint solve_on_piece(const Piece& piece, double at);
+  SurfacePoint solve_on_piece(Piece& piece, double at);
   bool polygons_cross() const;
   void refine_all();
   void emit();
