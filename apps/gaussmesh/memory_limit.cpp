@@ -202,7 +202,7 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   if (spool.statm < 0) fail("/proc/self/statm");
   spool.base = static_cast<char*>(base);
   // Until a busy system lets the sweeper run, some MB may be touched.
-  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{32} << 20;
+  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{48} << 20;
   spool.most_on_heap = static_cast<std::int64_t>(limit / 4);
   spool.most_resident = limit - std::max(limit / 8, kTouchedMeanwhile);
   spool.enough_resident = spool.most_resident - limit / 8;
