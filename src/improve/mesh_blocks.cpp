@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "core/sort_and_unite.h"
 
 namespace gaussmesh {
 namespace {
@@ -125,8 +126,7 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
       if (block_of_[v] != block) outside.push_back(v);
     }
   }
-  std::sort(outside.begin(), outside.end());
-  outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
+  sort_and_unite(outside);
 
   std::vector<Triangle> triangles;
   triangles.reserve(first_triangle_[block + 1] - first_triangle_[block]);

@@ -24,7 +24,8 @@ struct PatchOutcome {
   std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
 };
 
-/// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from kLocalVertex on.
+/// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from
+/// kLocalVertex on.
 struct PatchedCells {
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;

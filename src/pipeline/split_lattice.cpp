@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/parallel.h"
+#include "core/sort_and_unite.h"
 #include "field/local_atoms.h"
 #include "gaussmesh/error.h"
 
@@ -42,11 +43,6 @@ CellKey cell_around(const CellKey& cell, int level) {
   CellKey result{{}, level};
   for (int k = 0; k < 3; ++k) result.lo[k] = round_down(cell.lo[k], fine_size(level));
   return result;
-}
-
-void sort_and_unite(std::vector<std::uint32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 /// Axes along which the components of a cell are cut.
@@ -106,7 +102,8 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   sort_and_unite(changed_cells_);
   if (!uncertified_.empty()) return;
   for (std::size_t first = first_cell; first < cells_.size(); first += kCellsAtOnce) {
-    const std::span<const SplitCell> some = std::span(cells_).subspan(first, std::min(kCellsAtOnce, cells_.size() - first));
+    const std::size_t count = std::min(kCellsAtOnce, cells_.size() - first);
+    const auto some = std::span<const SplitCell>(cells_).subspan(first, count);
     find_edge_roots(some, threads);
     trace_faces(some, threads);
   }
@@ -299,7 +296,8 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
         if (edge.level == task.leaf.level) {
           find(in_leaf);
         } else {
-          find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(), lattice_box(lattice_, edge.lo(), end)));
+          find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(),
+                          lattice_box(lattice_, edge.lo(), end)));
         }
       }
     };

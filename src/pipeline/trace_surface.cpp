@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/lattice_degenerate.h"
+#include "core/sort_and_unite.h"
 #include "gaussmesh/error.h"
 #include "pipeline/critical_point.h"
 #include "pipeline/find_fold_cells.h"
@@ -50,8 +51,7 @@ void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult&
 /// Both lists as one, in rising order and each number once.
 std::vector<std::uint32_t> united(std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
   a.insert(a.end(), b.begin(), b.end());
-  std::sort(a.begin(), a.end());
-  a.erase(std::unique(a.begin(), a.end()), a.end());
+  sort_and_unite(a);
   return a;
 }
 
