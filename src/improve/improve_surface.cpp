@@ -44,12 +44,14 @@ struct Sweep {
   bool settles = false;   ///< leaves the vertices exactly on the surface; extra ones do so at every step
   bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
 };
-constexpr Sweep kExtraSweep{1, true, false, true};
-constexpr Sweep kSweeps[] = {{3, false, false, false}, {3, false, false, false}, {3, true, false, false},
-                             {2, true, true, false},   kExtraSweep,              kExtraSweep,
-                             kExtraSweep,              kExtraSweep,              kExtraSweep,
-                             kExtraSweep};
+constexpr Sweep kSweeps[] = {
+    {3, false, false, false}, {3, false, false, false}, {3, true, false, false}, {2, true, true, false}};
 constexpr int kSweepsWithOtherPlanes = 4;
+
+/// Follows them until two find nothing to do: what the first did not see at its planes the second does.
+constexpr Sweep kExtraSweep{1, true, false, true};
+constexpr int kMostExtraSweeps = 12;
+constexpr int kIdleSweeps = 2;
 
 /// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
 constexpr double effort(const Sweep& sweep) {
@@ -106,9 +108,10 @@ bool activate_bad_places(BlockMesh& mesh) {
   return any;
 }
 
-void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
+/// @return whether there was something to do
+bool improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
                    const Sweep& sweep) {
-  if (sweep.is_extra && !activate_bad_places(mesh)) return;
+  if (sweep.is_extra && !activate_bad_places(mesh)) return false;
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
   SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
@@ -124,6 +127,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   if (sweep.settles) settle_vertices(mesh, field);
   if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+  return true;
 }
 
 SurfaceMesh finish(WholeMesh mesh) {
@@ -147,30 +151,35 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   SizeTargets now = targets;
   now.largest = targets.spacing;
   int number = 0;
-  double all = 0.0, done = 0.0;
+  double all = kMostExtraSweeps * effort(kExtraSweep), done = 0.0;
   for (const Sweep& sweep : kSweeps) all += effort(sweep);
   const auto run = [&](const Sweep& sweep) {
+    std::atomic<bool> has_worked = false;
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
     MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
     std::atomic<int> blocks_done = 0;
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
       BlockMesh block = blocks.extract(b);
-      improve_block(block, field, now, guarding, sweep);
+      if (improve_block(block, field, now, guarding, sweep)) has_worked = true;
       blocks.store(b, std::move(block));
       if (on_progress)
         on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
     mesh = std::move(blocks).join(threads);
+    done += effort(sweep);
+    return has_worked.load();
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
-    done += effort(sweep);
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
+  int idle = 0;
+  for (int i = 0; i < kMostExtraSweeps && idle < kIdleSweeps; ++i) idle = run(kExtraSweep) ? 0 : idle + 1;
+  if (on_progress) on_progress(1.0);
   return finish(std::move(mesh));
 }
 
