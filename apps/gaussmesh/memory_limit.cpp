@@ -102,14 +102,15 @@ std::uint64_t resident() {
   return std::strtoull(second, nullptr, 10) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Unmaps pages of the file if too many are resident. Nothing gets lost: what was written to a shared mapping is in
-/// the file.
-void make_room() {
+/// Unmaps pages of the file if too many are resident, or will be once `soon` bytes more are. Nothing gets lost: what
+/// was written to a shared mapping is in the file.
+void make_room(std::uint64_t soon) {
   constexpr std::size_t kAtOnce = 4;  // units
-  if (resident() < spool.most_resident || !spool.sweeping.try_lock()) return;
+  soon = std::min(soon, spool.enough_resident / 2);
+  if (resident() + soon < spool.most_resident || !spool.sweeping.try_lock()) return;
   const std::lock_guard lock(spool.sweeping, std::adopt_lock);
   const std::size_t all = spool.units;
-  for (std::size_t seen = 0; seen < all && resident() > spool.enough_resident; seen += kAtOnce) {
+  for (std::size_t seen = 0; seen < all && resident() + soon > spool.enough_resident; seen += kAtOnce) {
     if (spool.sweep_at >= all) spool.sweep_at = 0;
     ::madvise(spool.base + spool.sweep_at * kUnit, kAtOnce * kUnit, MADV_DONTNEED);
     spool.sweep_at += kAtOnce;
@@ -118,7 +119,7 @@ void make_room() {
 
 /// New units, of which the first `bytes` are used.
 char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
-  make_room();
+  make_room(bytes);  // a large array is filled as soon as it is there
   const std::lock_guard lock(spool.mutex);
   const std::size_t first = spool.units;
   if (units > kUnits - first) throw NoRoomOnDisk();
@@ -174,7 +175,7 @@ void give_back_piece(void* piece) {
 /// Does what is to be done about the limit twice in a millisecond.
 void keep_limit() {
   constexpr auto kPause = std::chrono::microseconds(500);
-  for (;; std::this_thread::sleep_for(kPause)) make_room();
+  for (;; std::this_thread::sleep_for(kPause)) make_room(0);
 }
 
 [[noreturn]] void fail(const std::filesystem::path& folder) {
@@ -202,8 +203,8 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   if (spool.statm < 0) fail("/proc/self/statm");
   spool.base = static_cast<char*>(base);
   // Until a busy system lets the sweeper run, some MB may be touched.
-  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{48} << 20;
-  spool.most_on_heap = static_cast<std::int64_t>(limit / 4);
+  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{68} << 20;
+  spool.most_on_heap = static_cast<std::int64_t>(limit / 8);
   spool.most_resident = limit - std::max(limit / 8, kTouchedMeanwhile);
   spool.enough_resident = spool.most_resident - limit / 8;
   std::thread(keep_limit).detach();
