@@ -55,7 +55,7 @@ class GrowthLimit {
     const auto most = static_cast<float>(double(mesh_.size[u]) + kGrowth * length(edge));
     if (!(mesh_.size[v] > most * 1.0001f)) return;
     mesh_.size[v] = most;
-    if (v >= mesh_.connectivity.vertices() || !mesh_.connectivity.is_inner(v)) {
+    if (!mesh_.connectivity.is_inner(v)) {
       has_lowered_boundary_ = true;
     } else if (!is_waiting_[v]) {
       is_waiting_[v] = 1;

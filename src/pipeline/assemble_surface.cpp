@@ -226,9 +226,9 @@ std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<con
   return bricks;
 }
 
-PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
-                                           const TracedVertices& vertices, std::span<const std::uint32_t> bricks,
-                                           int threads) {
+std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
+                                                   const TracedVertices& vertices,
+                                                   std::span<const std::uint32_t> bricks, int threads) {
   const std::size_t all_bricks = store_.bricks().size();
   patched_.resize(all_bricks + split.cells().size());
   std::vector<std::size_t> tasks(bricks.begin(), bricks.end());
@@ -248,12 +248,17 @@ PatchOutcome CellTriangulator::triangulate(const SplitLattice& split, const Fold
       result.triangles.shrink_to_fit();
     };
   });
-  PatchOutcome outcome;
+  std::vector<CellKey> failed;
   for (const std::size_t task : tasks) {
-    outcome.failed.insert(outcome.failed.end(), patched_[task].failed.begin(), patched_[task].failed.end());
+    failed.insert(failed.end(), patched_[task].failed.begin(), patched_[task].failed.end());
   }
-  for (const PatchedCells& cells : patched_) outcome.fold_cells += cells.fold_cells;
-  return outcome;
+  return failed;
+}
+
+std::size_t CellTriangulator::fold_cells() const {
+  std::size_t count = 0;
+  for (const PatchedCells& cells : patched_) count += cells.fold_cells;
+  return count;
 }
 
 SurfaceMesh CellTriangulator::join(CellStore& store, const TracedVertices& vertices, int threads) && {

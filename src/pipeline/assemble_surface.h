@@ -18,12 +18,6 @@ void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore&
 /// The bricks that see the faces of others, and those themselves.
 std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<const std::uint32_t> traced);
 
-/// What triangulating the cells gave.
-struct PatchOutcome {
-  std::size_t fold_cells = 0;    ///< cells cut along folds
-  std::vector<CellKey> failed;   ///< cells without an embedded triangulation: they must be split
-};
-
 /// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from
 /// kLocalVertex on.
 struct PatchedCells {
@@ -43,9 +37,14 @@ class CellTriangulator {
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
   /// Triangulates the cells in some bricks - all of them in the first call - and those that the last call of
-  /// split.split() changed. When no cell fails, join() makes the surface of what was kept from all calls.
-  PatchOutcome triangulate(const SplitLattice& split, const FoldCellMap& folds, const TracedVertices& vertices,
-                           std::span<const std::uint32_t> bricks, int threads);
+  /// split.split() changed. @return those without an embedded triangulation, which must be split; when there are none,
+  /// join() makes the surface of what was kept from all calls
+  std::vector<CellKey> triangulate(const SplitLattice& split, const FoldCellMap& folds,
+                                   const TracedVertices& vertices, std::span<const std::uint32_t> bricks,
+                                   int threads);
+
+  /// Cells that are cut along folds.
+  std::size_t fold_cells() const;
 
   /// The surface of all cells. What `store` had is gone then.
   SurfaceMesh join(CellStore& store, const TracedVertices& vertices, int threads) &&;

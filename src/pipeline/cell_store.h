@@ -53,6 +53,7 @@ class CellStore {
   /// Gives all cells and curves back, when nobody asks for them any more. @return the roots, which are vertices
   std::vector<SurfacePoint> release_roots() {
     bricks_ = std::vector<Brick>();
+    by_index_ = {};
     rises_ = std::vector<std::int8_t>();
     return std::move(roots_);
   }

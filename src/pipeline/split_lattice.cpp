@@ -349,7 +349,7 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
       for (int axis = 0; axis < 3; ++axis) {
         for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
           const FineIndex lo = moved(leaf.key.lo, axis, by);
-          const LatticeKey face = LatticeKey(lo, axis, leaf.key.level);
+          const LatticeKey face(lo, axis, leaf.key.level);
           if (is_divided(axis, lo, leaf.key.level) || faces_.contains(face)) continue;
           const auto [number, is_new] = faces.insert(face);
           if (is_new) certificates.push_back(kFaceUncertified);

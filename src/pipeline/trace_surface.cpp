@@ -89,19 +89,18 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
     finished("curves");
     const std::vector<std::uint32_t> to_patch =
         round == 0 ? all_bricks : united(bricks_that_see(store, to_trace), split.changed_bricks());
-    PatchOutcome outcome = cells.triangulate(split, search.folds, vertices, to_patch, threads);
-    if (outcome.failed.empty()) {
+    to_split = cells.triangulate(split, search.folds, vertices, to_patch, threads);
+    if (to_split.empty()) {
       result.cells_split = split.split_cells();
-      result.cells_cut_by_folds = outcome.fold_cells;
+      result.cells_cut_by_folds = cells.fold_cells();
       result.surface = std::move(cells).join(store, vertices, threads);
       finished("patches");
       return result;
     }
     finished("patches");
-    for (const CellKey& cell : outcome.failed) {
+    for (const CellKey& cell : to_split) {
       if (cell.level == kMaxLevel) throw LatticeDegenerate(to_angstrom(lattice.point(cell.lo)));
     }
-    to_split = std::move(outcome.failed);
   }
   throw InternalError("cells were split again and again without an embedded triangulation");
 }
