@@ -38,7 +38,8 @@ std::vector<AtomTree::Group> AtomTree::group(const std::vector<Group>& members) 
 }
 
 /// Goes first to the groups that promise most, and not to those that promise less than is already found.
-AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const Box& place, Best best) const {
+AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const BoundingBox& place,
+                                    Best best) const {
   if (level == 0) {
     const double exponent = largest_exponent(group_at(0, index), place);
     return exponent > best.exponent ? Best{exponent, index} : best;
@@ -80,7 +81,7 @@ double AtomTree::least_relative_distance(const Point& point) const {
 }
 
 /// A lower bound of the largest exponent at any point of `place`: that of the atom which is largest at its middle.
-double AtomTree::least_largest_exponent(const Box& place) const {
+double AtomTree::least_largest_exponent(const BoundingBox& place) const {
   Point middle{};
   for (int k = 0; k < 3; ++k) middle[k] = 0.5 * place.low[k] + 0.5 * place.high[k];
   const Atom& atom = atoms_[best_below(levels_.size(), 0, {middle, middle}, {}).atom];

@@ -8,7 +8,7 @@
 
 #include "gaussmesh/atom.h"
 #include "gaussmesh/triangle_mesh.h"
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 
 namespace gaussmesh {
 
@@ -33,7 +33,7 @@ class AtomTree {
   /// Calls visit(atom) for every atom whose exponent is, at some point of `place`, less than `range` below the
   /// largest exponent at that point; and for some others.
   template <class Visit>
-  void for_each_near(const Box& place, double range, const Visit& visit) const {
+  void for_each_near(const BoundingBox& place, double range, const Visit& visit) const {
     visit_below(levels_.size(), 0, place, least_largest_exponent(place) - range, visit);
   }
 
@@ -41,7 +41,7 @@ class AtomTree {
   /// `least` at some point of `place`, and some others; and for all that are not visited leave_out(exponent,
   /// count): so many atoms at most, whose exponents are nowhere in `place` larger than that.
   template <class Visit, class LeaveOut>
-  void for_each_group_reaching(const Box& place, double least, const Visit& visit,
+  void for_each_group_reaching(const BoundingBox& place, double least, const Visit& visit,
                                const LeaveOut& leave_out) const {
     visit_groups_below(levels_.size(), 0, place, least, visit, leave_out);
   }
@@ -49,7 +49,7 @@ class AtomTree {
  private:
   /// A box round the centres, and the largest radius.
   struct Group {
-    Box box;
+    BoundingBox box;
     double radius_sq = 0.0;
 
     void include(const Group& group) {
@@ -69,7 +69,7 @@ class AtomTree {
   static Group group_of(const Atom& atom);
 
   /// An upper bound, met by a single atom, of the exponents of the group's atoms at the points of `place`.
-  static double largest_exponent(const Group& group, const Box& place) {
+  static double largest_exponent(const Group& group, const BoundingBox& place) {
     double distance_sq = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double gap = std::max({0.0, group.box.low[k] - place.high[k], place.low[k] - group.box.high[k]});
@@ -80,8 +80,8 @@ class AtomTree {
 
   static std::vector<Group> group(const std::vector<Group>& members);
 
-  Best best_below(std::size_t level, std::size_t index, const Box& place, Best best) const;
-  double least_largest_exponent(const Box& place) const;
+  Best best_below(std::size_t level, std::size_t index, const BoundingBox& place, Best best) const;
+  double least_largest_exponent(const BoundingBox& place) const;
   double relative_distance_sq_below(std::size_t level, std::size_t index, const Point& point, double least) const;
 
   /// Level 0 is the atoms themselves, level k is levels_[k - 1].
@@ -92,7 +92,8 @@ class AtomTree {
   std::size_t size_of(std::size_t level) const { return level == 0 ? atoms_.size() : levels_[level - 1].size(); }
 
   template <class Visit>
-  void visit_below(std::size_t level, std::size_t index, const Box& place, double least, const Visit& visit) const {
+  void visit_below(std::size_t level, std::size_t index, const BoundingBox& place, double least,
+                   const Visit& visit) const {
     if (largest_exponent(group_at(level, index), place) < least) return;
     if (level == 0) {
       visit(atoms_[index]);
@@ -104,8 +105,8 @@ class AtomTree {
   }
 
   template <class Visit, class LeaveOut>
-  void visit_groups_below(std::size_t level, std::size_t index, const Box& place, double least, const Visit& visit,
-                          const LeaveOut& leave_out) const {
+  void visit_groups_below(std::size_t level, std::size_t index, const BoundingBox& place, double least,
+                          const Visit& visit, const LeaveOut& leave_out) const {
     constexpr std::size_t kVisited = 2;                       // the level whose groups are visited whole
     const std::size_t under = std::size_t{1} << (2 * level);  // 4^level atoms
     const double largest = largest_exponent(levels_[level - 1][index], place);

@@ -51,7 +51,7 @@ void find_sides(const float* a, const float* b, const float* c, float per_length
 
 }  // namespace
 
-void CoarseBoxes::start(const Box& place) {
+void CoarseBoxes::start(const BoundingBox& place) {
   size_ = 0;
   origin_ = place.low;
   for (int k = 0; k < 3; ++k) {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 
 namespace gaussmesh {
 
@@ -16,7 +16,7 @@ namespace gaussmesh {
 class CoarseBoxes {
  public:
   /// Empties the list, and sets the place.
-  void start(const Box& place);
+  void start(const BoundingBox& place);
 
   std::size_t size() const { return size_; }
 

@@ -144,7 +144,7 @@ std::vector<std::uint32_t> find_components_around(const Point& p, const Triangle
                                                   const std::vector<std::uint32_t>& component_of,
                                                   const std::vector<bool>& is_closed, const TriangleTree& tree) {
   std::vector<std::uint32_t> crossed;
-  const Box ray{p, {p[0], p[1], std::numeric_limits<double>::infinity()}};
+  const BoundingBox ray{p, {p[0], p[1], std::numeric_limits<double>::infinity()}};
   tree.for_each_block_meeting(ray, 0, [&](std::span<const std::uint32_t> block) {
     for (const std::uint32_t t : block) {
       const std::uint32_t component = component_of[t];

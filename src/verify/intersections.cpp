@@ -33,7 +33,7 @@ class PatchTester {
 
   /// @param begin, end  the blocks of the patch
   void find_all(std::size_t begin, std::size_t end, Intersections& found) {
-    Box patch;
+    BoundingBox patch;
     for (const std::uint32_t number : tree_.blocks(begin, end))
       patch.include(box_of(mesh_, mesh_.triangles[number]));
     boxes_.start(patch);

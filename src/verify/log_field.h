@@ -5,7 +5,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/atom_tree.h"
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 
 namespace gaussmesh {
 
@@ -38,7 +38,7 @@ class LogField {
   const AtomTree& tree_;
   double decay_;
   double range_;                   // exponents that far below the largest do not count
-  Box place_;                      // where `near_` serves
+  BoundingBox place_;              // where `near_` serves
   std::vector<Atom> near_;         // the atoms that count there
   std::vector<double> exponents_;  // theirs, at the point in hand
 };

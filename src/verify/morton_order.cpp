@@ -20,7 +20,7 @@ std::uint32_t spread_bits(std::uint32_t x) {
 
 }  // namespace
 
-std::uint32_t morton_cell(const Box& box, const Point& point) {
+std::uint32_t morton_cell(const BoundingBox& box, const Point& point) {
   constexpr double kLast = (1 << kBitsPerAxis) - 1;
   const double side = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
   std::uint32_t cell = 0;

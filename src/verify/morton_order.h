@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 
 namespace gaussmesh {
 
@@ -19,7 +19,7 @@ struct MortonKey {
 };
 
 /// The cell of `point` among 1024^3 cubes that `box` is cut into.
-std::uint32_t morton_cell(const Box& box, const Point& point);
+std::uint32_t morton_cell(const BoundingBox& box, const Point& point);
 
 /// Sorts by cell; equal cells keep their order.
 void sort_by_cell(std::vector<MortonKey>& keys);
@@ -33,10 +33,10 @@ template <class PointOf>
 void sort_along_morton_curve(std::vector<MortonKey>& keys, const PointOf& point_of) {
   constexpr std::size_t kEnough = 32;         // a run this short is near enough together
   constexpr std::size_t kForThreads = 10000;  // keys that are worth several threads
-  Box box;
+  BoundingBox box;
 #pragma omp parallel if (keys.size() > kForThreads)
   {
-    Box mine;
+    BoundingBox mine;
 #pragma omp for schedule(static)
     for (std::size_t i = 0; i < keys.size(); ++i) mine.include(point_of(keys[i].number));
 #pragma omp critical(gaussmesh_morton_order)

@@ -8,7 +8,7 @@
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/measure_mesh.h"
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
@@ -72,7 +72,7 @@ class CubeTable {
   }
 
   const std::vector<Point>& points_;
-  Box box_;
+  BoundingBox box_;
   double cube_ = 0.0;
   std::vector<std::uint32_t> heads_;  // of each slot's list
   std::vector<std::uint32_t> next_;

@@ -69,7 +69,7 @@ void sum_moments(const AtomView& atoms, const PointLanes& points, double decay, 
 
 /// The largest exponent r_i^2 - |x - x_i|^2 of each atom at any point x of `place`.
 GAUSSMESH_LANE_CLONES
-void find_largest_exponents(const AtomView& atoms, const Box& place, double* exponents) {
+void find_largest_exponents(const AtomView& atoms, const BoundingBox& place, double* exponents) {
   for (std::size_t i = 0; i < atoms.size; ++i) {
     const double dx = std::max({0.0, place.low[0] - atoms.x[i], atoms.x[i] - place.high[0]});
     const double dy = std::max({0.0, place.low[1] - atoms.y[i], atoms.y[i] - place.high[1]});
@@ -136,7 +136,7 @@ PointLanes in_lanes(const Walk& walk, std::size_t count) {
   return points;
 }
 
-Box widened(Box box, double margin) {
+BoundingBox widened(BoundingBox box, double margin) {
   for (int k = 0; k < 3; ++k) {
     box.low[k] -= margin;
     box.high[k] += margin;
@@ -144,7 +144,7 @@ Box widened(Box box, double margin) {
   return box;
 }
 
-bool is_short(const Box& box, double side) {
+bool is_short(const BoundingBox& box, double side) {
   return box.high[0] - box.low[0] <= side && box.high[1] - box.low[1] <= side && box.high[2] - box.low[2] <= side;
 }
 
@@ -186,9 +186,9 @@ FootFinder::FootFinder(const AtomTree& tree, double decay, double isovalue, doub
 void FootFinder::find(std::span<const Point> starts, std::span<Foot> feet) {
   const double widest = kBlockWidths / std::sqrt(decay_);
   for (std::size_t begin = 0, end = 0; begin < starts.size(); begin = end) {
-    Box box;
+    BoundingBox box;
     for (end = begin; end < std::min(begin + kPointsInBlock, starts.size()); ++end) {
-      Box larger = box;
+      BoundingBox larger = box;
       larger.include(starts[end]);
       if (end > begin && !is_short(larger, widest)) break;
       box = larger;
@@ -197,7 +197,7 @@ void FootFinder::find(std::span<const Point> starts, std::span<Foot> feet) {
   }
 }
 
-void FootFinder::find_block(std::span<const Point> starts, const Box& box, std::span<Foot> feet) {
+void FootFinder::find_block(std::span<const Point> starts, const BoundingBox& box, std::span<Foot> feet) {
   gather(widened(box, reach_));
   for (std::size_t begin = 0; begin < starts.size(); begin += kLanes) {
     const std::size_t count = std::min(kLanes, starts.size() - begin);
@@ -205,7 +205,7 @@ void FootFinder::find_block(std::span<const Point> starts, const Box& box, std::
   }
 }
 
-void FootFinder::gather(const Box& place) {
+void FootFinder::gather(const BoundingBox& place) {
   visited_.size = 0;
   left_out_ = 0.0;
   tree_.for_each_group_reaching(
@@ -226,7 +226,7 @@ void FootFinder::gather(const Box& place) {
 }
 
 /// Takes those atoms that count in `place`.
-void FootFinder::choose(const AtomArrays& from, const Box& place, AtomArrays& to) {
+void FootFinder::choose(const AtomArrays& from, const BoundingBox& place, AtomArrays& to) {
   if (largest_.size() < from.size) largest_.resize(2 * from.size);
   find_largest_exponents({from.x.data(), from.y.data(), from.z.data(), from.radius_sq.data(), from.size}, place,
                          largest_.data());
@@ -246,9 +246,9 @@ void FootFinder::choose(const AtomArrays& from, const Box& place, AtomArrays& to
 void FootFinder::find_in_lanes(std::span<const Point> starts, std::span<Foot> feet) {
   constexpr int kMostSteps = 8;
   Walk walk;
-  Box box;
+  BoundingBox box;
   for (std::size_t lane = 0; lane < starts.size(); ++lane) box.include(walk.at[lane] = starts[lane]);
-  const Box place = widened(box, reach_);
+  const BoundingBox place = widened(box, reach_);
   choose(near_, place, chosen_);
   const AtomView atoms{chosen_.x.data(), chosen_.y.data(), chosen_.z.data(), chosen_.radius_sq.data(),
                        chosen_.size};

@@ -8,7 +8,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/atom_tree.h"
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 #include "verify/lanes.h"
 #include "verify/log_field.h"
 
@@ -53,10 +53,10 @@ class FootFinder {
     void append(const Atom& atom);
   };
 
-  void find_block(std::span<const Point> starts, const Box& box, std::span<Foot> feet);
+  void find_block(std::span<const Point> starts, const BoundingBox& box, std::span<Foot> feet);
   void find_in_lanes(std::span<const Point> starts, std::span<Foot> feet);
-  void gather(const Box& place);
-  void choose(const AtomArrays& from, const Box& place, AtomArrays& to);
+  void gather(const BoundingBox& place);
+  void choose(const AtomArrays& from, const BoundingBox& place, AtomArrays& to);
   Foot find_slowly(const Point& start);
 
   const AtomTree& tree_;

@@ -30,15 +30,15 @@ void compare_boxes(const float* boxes, const float* low, const float* high, std:
   std::memcpy(answers, &narrow, sizeof narrow);
 }
 
-std::vector<Box> boxes_of_groups(const std::vector<Box>& below, std::size_t fan_out) {
-  std::vector<Box> boxes((below.size() + fan_out - 1) / fan_out);
+std::vector<BoundingBox> boxes_of_groups(const std::vector<BoundingBox>& below, std::size_t fan_out) {
+  std::vector<BoundingBox> boxes((below.size() + fan_out - 1) / fan_out);
   for (std::size_t i = 0; i < below.size(); ++i) boxes[i / fan_out].include(below[i]);
   return boxes;
 }
 
 }  // namespace
 
-void TriangleTree::find_meeting_blocks(const BlockBoxes& boxes, const Box& query, Answers& answers) {
+void TriangleTree::find_meeting_blocks(const BlockBoxes& boxes, const BoundingBox& query, Answers& answers) {
   const float low[] = {static_cast<float>(query.low[0]), static_cast<float>(query.low[1]),
                        static_cast<float>(query.low[2])};
   const float high[] = {static_cast<float>(query.high[0]), static_cast<float>(query.high[1]),
@@ -75,7 +75,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   for (std::size_t p = 0; p < patches; ++p)
     for (std::size_t i = 0; i < kPatchBlocks; ++i) {
       const std::size_t block = p * kPatchBlocks + i;
-      Box box;
+      BoundingBox box;
       if (block < block_count())
         for (const std::uint32_t number : blocks(block, block + 1))
           box.include(box_of(mesh, mesh.triangles[number]));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
-#include "verify/box.h"
+#include "verify/bounding_box.h"
 
 namespace gaussmesh {
 
@@ -37,7 +37,7 @@ class TriangleTree {
   /// Calls visit(numbers) for every block from `first` on whose box meets `query`, in rising order, and perhaps for
   /// some whose box does not quite.
   template <class Visit>
-  void for_each_block_meeting(const Box& query, std::size_t first, const Visit& visit) const {
+  void for_each_block_meeting(const BoundingBox& query, std::size_t first, const Visit& visit) const {
     if (order_.empty()) return;
     for (std::size_t node = 0; node < levels_.back().size(); ++node)
       visit_below(levels_.size() - 1, node, query, first, visit);
@@ -62,10 +62,10 @@ class TriangleTree {
   using Answers = std::array<std::uint8_t, kPatchBlocks>;
 
   /// For each block of the patch whether its box meets the query; not 0 if so.
-  static void find_meeting_blocks(const BlockBoxes& boxes, const Box& query, Answers& answers);
+  static void find_meeting_blocks(const BlockBoxes& boxes, const BoundingBox& query, Answers& answers);
 
   template <class Visit>
-  void visit_below(std::size_t level, std::size_t node, const Box& query, std::size_t first,
+  void visit_below(std::size_t level, std::size_t node, const BoundingBox& query, std::size_t first,
                    const Visit& visit) const {
     const std::size_t blocks_end = ((node + 1) << (2 * level)) * kPatchBlocks;  // 4^level patches lie under a node
     if (blocks_end <= first || !boxes_meet(levels_[level][node], query)) return;
@@ -79,7 +79,7 @@ class TriangleTree {
   }
 
   template <class Visit>
-  void visit_blocks(std::size_t patch, const Box& query, std::size_t first, const Visit& visit) const {
+  void visit_blocks(std::size_t patch, const BoundingBox& query, std::size_t first, const Visit& visit) const {
     Answers answers;
     find_meeting_blocks(block_boxes_[patch], query, answers);
     const std::size_t begin = patch * kPatchBlocks;
@@ -93,7 +93,7 @@ class TriangleTree {
     std::size_t node = 0;
   };
 
-  static double distance_sq_to_box(const Point& point, const Box& box) {
+  static double distance_sq_to_box(const Point& point, const BoundingBox& box) {
     double distance_sq = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double gap = std::max({0.0, box.low[k] - point[k], point[k] - box.high[k]});
@@ -137,9 +137,9 @@ class TriangleTree {
   static void find_distances_to_blocks(const BlockBoxes& boxes, const Point& point,
                                        std::array<double, kPatchBlocks>& distances_sq);
 
-  std::vector<std::uint32_t> order_;      // triangle numbers along the curve
-  std::vector<BlockBoxes> block_boxes_;   // of each patch
-  std::vector<std::vector<Box>> levels_;  // [0]: of the patches; [k]: of kFanOut boxes of [k - 1] each
+  std::vector<std::uint32_t> order_;              // triangle numbers along the curve
+  std::vector<BlockBoxes> block_boxes_;           // of each patch
+  std::vector<std::vector<BoundingBox>> levels_;  // [0]: of the patches; [k]: of kFanOut boxes of [k - 1] each
 };
 
 }  // namespace gaussmesh

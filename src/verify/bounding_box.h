@@ -9,7 +9,7 @@
 namespace gaussmesh {
 
 /// All points with low <= x <= high; empty as made, until something is included.
-struct Box {
+struct BoundingBox {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
             std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
@@ -22,7 +22,7 @@ struct Box {
     }
   }
 
-  void include(const Box& box) {
+  void include(const BoundingBox& box) {
     for (int k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], box.low[k]);
       high[k] = std::max(high[k], box.high[k]);
@@ -31,14 +31,14 @@ struct Box {
 };
 
 /// Whether two boxes have a point in common; touching counts. Without branches: most callers cannot predict it.
-inline bool boxes_meet(const Box& a, const Box& b) {
+inline bool boxes_meet(const BoundingBox& a, const BoundingBox& b) {
   unsigned meet = 1;
   for (int k = 0; k < 3; ++k) meet &= unsigned{a.low[k] <= b.high[k]} & unsigned{b.low[k] <= a.high[k]};
   return meet != 0;
 }
 
-inline Box box_of(const TriangleMesh& mesh, const Triangle& triangle) {
-  Box box;
+inline BoundingBox box_of(const TriangleMesh& mesh, const Triangle& triangle) {
+  BoundingBox box;
   for (const std::uint32_t vertex : triangle) box.include(mesh.vertices[vertex]);
   return box;
 }
