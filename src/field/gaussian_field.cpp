@@ -7,7 +7,7 @@
 namespace gaussmesh {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 8;
+constexpr std::uint32_t kLeafSize = 16;
 
 double distance_sq(const Box& a, const Box& b) {
   double sum = 0.0;
@@ -22,15 +22,23 @@ double distance_sq(const Box& a, const Box& b) {
 
 GaussianField::GaussianField(const std::vector<Atom>& atoms, double decay, double isovalue) : decay_(decay) {
   const double log_c = std::log(isovalue);
-  sorted_.reserve(atoms.size());
-  for (const Atom& a : atoms) sorted_.push_back({{a.x, a.y, a.z}, decay * a.radius * a.radius - log_c});
-  std::sort(sorted_.begin(), sorted_.end(), [](const WeightedCentre& a, const WeightedCentre& b) {
+  std::vector<WeightedCentre> sorted;
+  sorted.reserve(atoms.size());
+  for (const Atom& a : atoms) sorted.push_back({{a.x, a.y, a.z}, decay * a.radius * a.radius - log_c});
+  std::sort(sorted.begin(), sorted.end(), [](const WeightedCentre& a, const WeightedCentre& b) {
     return std::tie(a.centre, a.w) < std::tie(b.centre, b.w);
   });
-  build(0, static_cast<std::uint32_t>(sorted_.size()));
+  build(sorted, 0, static_cast<std::uint32_t>(sorted.size()));
+  for (auto* list : {&atoms_.x, &atoms_.y, &atoms_.z, &atoms_.w}) list->reserve(sorted.size());
+  for (const WeightedCentre& a : sorted) {
+    atoms_.x.push_back(a.centre[0]);
+    atoms_.y.push_back(a.centre[1]);
+    atoms_.z.push_back(a.centre[2]);
+    atoms_.w.push_back(a.w);
+  }
 
   // Farther than `reach` from every centre each of n atoms has phi_i / c < 1 / n.
-  const double reach_sq = (nodes_[0].w_max + std::log(static_cast<double>(sorted_.size()) + 1.0)) / decay;
+  const double reach_sq = (nodes_[0].w_max + std::log(static_cast<double>(size()) + 1.0)) / decay;
   const double reach = std::sqrt(std::max(0.0, reach_sq)) * (1.0 + 1e-9) + 1e-6;
   bounds_ = nodes_[0].box;
   for (int k = 0; k < 3; ++k) {
@@ -39,18 +47,19 @@ GaussianField::GaussianField(const std::vector<Atom>& atoms, double decay, doubl
   }
 }
 
-std::uint32_t GaussianField::build(std::uint32_t first, std::uint32_t last) {
+std::uint32_t GaussianField::build(std::vector<WeightedCentre>& atoms, std::uint32_t first, std::uint32_t last) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Node node;
   node.first = first;
   node.last = last;
-  node.box = {sorted_[first].centre, sorted_[first].centre};
-  node.w_max = sorted_[first].w;
+  node.box = {atoms[first].centre, atoms[first].centre};
+  node.w_max = atoms[first].w;
   for (std::uint32_t i = first; i < last; ++i) {
-    node.w_max = std::max(node.w_max, sorted_[i].w);
+    node.w_max = std::max(node.w_max, atoms[i].w);
+    node.w_size = std::max(node.w_size, std::abs(atoms[i].w));
     for (int k = 0; k < 3; ++k) {
-      node.box.lo[k] = std::min(node.box.lo[k], sorted_[i].centre[k]);
-      node.box.hi[k] = std::max(node.box.hi[k], sorted_[i].centre[k]);
+      node.box.lo[k] = std::min(node.box.lo[k], atoms[i].centre[k]);
+      node.box.hi[k] = std::max(node.box.hi[k], atoms[i].centre[k]);
     }
   }
   nodes_.push_back(node);
@@ -61,12 +70,12 @@ std::uint32_t GaussianField::build(std::uint32_t first, std::uint32_t last) {
     if (node.box.hi[k] - node.box.lo[k] > node.box.hi[axis] - node.box.lo[axis]) axis = k;
   }
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(sorted_.begin() + first, sorted_.begin() + middle, sorted_.begin() + last,
+  std::nth_element(atoms.begin() + first, atoms.begin() + middle, atoms.begin() + last,
                    [axis](const WeightedCentre& a, const WeightedCentre& b) {
                      return std::tie(a.centre[axis], a.centre, a.w) < std::tie(b.centre[axis], b.centre, b.w);
                    });
-  build(first, middle);
-  const std::uint32_t right = build(middle, last);
+  build(atoms, first, middle);
+  const std::uint32_t right = build(atoms, middle, last);
   nodes_[index].right = right;
   return index;
 }
@@ -74,8 +83,9 @@ std::uint32_t GaussianField::build(std::uint32_t first, std::uint32_t last) {
 void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) const {
   near.clear();
   near.cut = cut;
-  std::size_t left_out = 0;
-  double left_out_w = -kEmptyLo;
+  thread_local std::vector<std::uint32_t> kept;
+  std::size_t count = 0, left_out = 0;
+  double left_out_w = 0.0;
   std::uint32_t stack[64];
   int top = 0;
   stack[top++] = 0;
@@ -89,21 +99,21 @@ void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) co
       stack[top++] = node.right;
       stack[top++] = index + 1;
     } else {
-      for (std::uint32_t i = node.first; i < node.last; ++i) {
-        const WeightedCentre& a = sorted_[i];
-        const double atom_sq = distance_sq({a.centre, a.centre}, box);
-        if (a.w - decay_ * atom_sq < -cut) {
-          ++left_out;
-          left_out_w = std::max(left_out_w, std::abs(a.w));
-        } else {
-          near.add(a.centre[0], a.centre[1], a.centre[2], a.w);
-        }
+      double exponent[kLeafSize];
+      const std::uint32_t members = node.last - node.first;
+      largest_exponents(atoms_, node.first, members, box, decay_, exponent);
+      if (kept.size() < count + kLeafSize) kept.resize(2 * (count + kLeafSize));
+      const std::size_t before = count;
+      for (std::uint32_t i = 0; i < members; ++i) {
+        kept[count] = node.first + i;
+        count += exponent[i] >= -cut;
       }
+      left_out += members - (count - before);
+      left_out_w = std::max(left_out_w, node.w_size);
     }
   }
-  // As in NearAtoms::restrict_from(): rounding of the exponents.
-  const double slack = left_out > 0 ? 4e-15 * (2.0 * left_out_w + cut) + 1e-12 : 0.0;
-  near.add_cut_to_tail(static_cast<double>(left_out), left_out_w, cut - slack, decay_);
+  near.add_cut_to_tail(static_cast<double>(left_out), left_out_w, decay_);
+  near.take(atoms_, kept, count);
 }
 
 }  // namespace gaussmesh

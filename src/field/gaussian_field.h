@@ -21,7 +21,7 @@ class GaussianField {
   GaussianField(const std::vector<Atom>& atoms, double decay, double isovalue);
 
   double decay() const { return decay_; }
-  std::size_t size() const { return sorted_.size(); }
+  std::size_t size() const { return atoms_.x.size(); }
 
   /// A box outside which phi < c, proven.
   Box bounding_box() const { return bounds_; }
@@ -34,6 +34,7 @@ class GaussianField {
   struct Node {
     Box box;                   ///< of the centres
     double w_max = 0.0;
+    double w_size = 0.0;       ///< largest |w|
     std::uint32_t first = 0;   ///< atoms first .. last - 1
     std::uint32_t last = 0;
     std::uint32_t right = 0;   ///< the left child follows its parent; 0 in a leaf
@@ -43,10 +44,10 @@ class GaussianField {
     double w;
   };
 
-  std::uint32_t build(std::uint32_t first, std::uint32_t last);
+  std::uint32_t build(std::vector<WeightedCentre>& atoms, std::uint32_t first, std::uint32_t last);
 
   double decay_;
-  std::vector<WeightedCentre> sorted_;
+  WeightedCentres atoms_;
   std::vector<Node> nodes_;
   Box bounds_;
 };

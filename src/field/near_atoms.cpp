@@ -53,6 +53,12 @@ Extremes gather(const double* from, const std::uint32_t* index, std::size_t n, d
 
 }  // namespace
 
+void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box,
+                       double decay, double* exponent) {
+  exponents_in(atoms.x.data() + first, atoms.y.data() + first, atoms.z.data() + first, atoms.w.data() + first, count,
+               decay, box.lo.data(), box.hi.data(), exponent);
+}
+
 void NearAtoms::clear() {
   size_ = 0;
   tail = tail_slope = w_size = 0.0;
@@ -60,29 +66,23 @@ void NearAtoms::clear() {
   hi = {-kEmptyLo, -kEmptyLo, -kEmptyLo};
 }
 
-void NearAtoms::add(double ax, double ay, double az, double aw) {
-  lo = {std::min(lo[0], ax), std::min(lo[1], ay), std::min(lo[2], az)};
-  hi = {std::max(hi[0], ax), std::max(hi[1], ay), std::max(hi[2], az)};
-  w_size = std::max(w_size, std::abs(aw));
-  if (size_ % kLanes == 0) resize(size_ + kLanes);
-  if (size_ % kLanes == 0) {
-    for (std::size_t i = size_; i < size_ + kLanes; ++i) {
-      x[i] = ax;
-      y[i] = ay;
-      z[i] = az;
-      w[i] = kNoWeight;
-    }
+void NearAtoms::take(const WeightedCentres& atoms, std::vector<std::uint32_t>& chosen, std::size_t count) {
+  size_ = count;
+  if (count == 0) return;
+  const std::size_t n = padded();
+  if (chosen.size() < n) chosen.resize(n);
+  for (std::size_t i = count; i < n; ++i) chosen[i] = chosen[0];
+  if (x.size() < n) {
+    for (std::vector<double>* list : {&x, &y, &z, &w}) list->resize(std::max(n, 2 * list->size()));
   }
-  x[size_] = ax;
-  y[size_] = ay;
-  z[size_] = az;
-  w[size_] = aw;
-  ++size_;
-}
-
-void NearAtoms::resize(std::size_t count) {
-  if (x.size() >= count) return;
-  for (std::vector<double>* list : {&x, &y, &z, &w}) list->resize(std::max(count, 2 * list->size()));
+  const Extremes in_x = gather(atoms.x.data(), chosen.data(), n, x.data());
+  const Extremes in_y = gather(atoms.y.data(), chosen.data(), n, y.data());
+  const Extremes in_z = gather(atoms.z.data(), chosen.data(), n, z.data());
+  lo = {in_x.least, in_y.least, in_z.least};
+  hi = {in_x.largest, in_y.largest, in_z.largest};
+  const Extremes in_w = gather(atoms.w.data(), chosen.data(), n, w.data());
+  w_size = std::max(std::abs(in_w.least), std::abs(in_w.largest));
+  for (std::size_t i = count; i < n; ++i) w[i] = kNoWeight;
 }
 
 void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, double decay) {
@@ -94,13 +94,15 @@ void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, doub
   tail_slope += 2.0 * decay * r * value * (1.0 + 1e-9);
 }
 
-void NearAtoms::add_cut_to_tail(double count, double w_max, double at_cut, double decay) {
+void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
   if (count == 0.0) return;
+  // Rounding of the exponents: those a little above the cut may be left out as well.
+  const double at_cut = cut - (4e-15 * (2.0 * largest_w + cut) + 1e-12);
   // The slope 2 d r e^E of an atom with exponent E = w - d r^2 < -at_cut is 2 sqrt(d (w - E)) e^E, which grows with E up to
   // w - E = 1/2.
   const double value = count * (std::exp(-at_cut) * (1.0 + 1e-9) + 1e-300);
   tail += value;
-  tail_slope += 2.0 * std::sqrt(decay * std::max(w_max + at_cut, 0.5)) * value * (1.0 + 1e-9);
+  tail_slope += 2.0 * std::sqrt(decay * std::max(largest_w + at_cut, 0.5)) * value * (1.0 + 1e-9);
 }
 
 void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut) {
@@ -114,29 +116,14 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
     exponent.resize(parent.padded());
     kept.resize(parent.padded());
   }
-  exponents_in(parent.x.data(), parent.y.data(), parent.z.data(), parent.w.data(), parent.padded(), decay,
-               box.lo.data(), box.hi.data(), exponent.data());
+  largest_exponents(parent, 0, parent.padded(), box, decay, exponent.data());
   std::size_t count = 0;
   for (std::size_t i = 0; i < parent.size(); ++i) {
     kept[count] = static_cast<std::uint32_t>(i);
     count += exponent[i] >= -cut;
   }
-  // Rounding of the exponents: those a little below the cut may be left out as well.
-  const double slack = 4e-15 * (2.0 * parent.w_size + cut) + 1e-12;
-  add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, cut - slack, decay);
-  if (count == 0) return;
-  size_ = count;
-  resize(padded());
-  for (std::size_t i = count; i < padded(); ++i) kept[i] = kept[0];
-  const std::size_t n = padded();
-  const Extremes in_x = gather(parent.x.data(), kept.data(), n, x.data());
-  const Extremes in_y = gather(parent.y.data(), kept.data(), n, y.data());
-  const Extremes in_z = gather(parent.z.data(), kept.data(), n, z.data());
-  lo = {in_x.least, in_y.least, in_z.least};
-  hi = {in_x.largest, in_y.largest, in_z.largest};
-  const auto [w_lo, w_hi] = gather(parent.w.data(), kept.data(), n, w.data());
-  w_size = std::max(std::abs(w_lo), std::abs(w_hi));
-  for (std::size_t i = count; i < n; ++i) w[i] = kNoWeight;
+  add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, decay);
+  take(parent, kept, count);
 }
 
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay) {

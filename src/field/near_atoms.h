@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/lattice.h"
@@ -12,16 +13,25 @@ namespace gaussmesh {
 
 inline constexpr double kEmptyLo = std::numeric_limits<double>::infinity();
 
-/// Atoms near a box, as arrays for SIMD, in an order that depends on the atoms alone.
+/// Atoms as arrays for SIMD.
+struct WeightedCentres {
+  std::vector<double> x, y, z;  ///< centres (A)
+  std::vector<double> w;        ///< log-weights relative to the isovalue, d r^2 - ln c
+};
+
+/// exponent[i] = w - d dist(atom, box)^2 for `count` atoms from `first` on: none has a larger one in the box.
+void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box,
+                       double decay, double* exponent);
+
+/// Atoms near a box, in an order that depends on the atoms alone.
 ///
 /// Their field relative to the isovalue is phi(x) / c = sum_i exp(w_i - d |x - x_i|^2), w_i = d r_i^2 - ln c. The
 /// atoms left out add at most `tail` to phi / c anywhere in the box, and at most `tail_slope` (1/A) to any component
 /// of its gradient.
-class NearAtoms {
+///
+/// Arrays are filled up to whole SIMD vectors: entries from size() to padded() - 1 have a weight of zero.
+class NearAtoms : public WeightedCentres {
  public:
-  /// Arrays are filled up to whole SIMD vectors: entries from size() to padded() - 1 have a weight of zero.
-  std::vector<double> x, y, z;  ///< centres (A)
-  std::vector<double> w;        ///< log-weights
   Vec3 lo{kEmptyLo, kEmptyLo, kEmptyLo};   ///< box round the centres, turned inside out while there are none
   Vec3 hi{-kEmptyLo, -kEmptyLo, -kEmptyLo};
   double w_size = 0.0;          ///< largest |w|
@@ -32,13 +42,16 @@ class NearAtoms {
   std::size_t size() const { return size_; }
   std::size_t padded() const { return (size_ + kLanes - 1) / kLanes * kLanes; }
   void clear();
-  void add(double ax, double ay, double az, double aw);
+
+  /// Becomes the `chosen` ones of some atoms; nothing is left out yet. Room for padded() is made in `chosen`.
+  void take(const WeightedCentres& atoms, std::vector<std::uint32_t>& chosen, std::size_t count);
 
   /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and at least `distance_sq` away.
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
-  /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and w - d dist^2 < -at_cut.
-  void add_cut_to_tail(double count, double w_max, double at_cut, double decay);
+  /// Accounts for `count` atoms left out, each with |log-weight| at most `largest_w`, whose largest exponents came out
+  /// below -cut.
+  void add_cut_to_tail(double count, double largest_w, double decay);
 
   /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with
   /// w - d dist^2 >= -new_cut. Cost: one pass over the parent's atoms, some 0.5 ns each.
@@ -46,8 +59,6 @@ class NearAtoms {
 
  private:
   static constexpr std::size_t kLanes = 8;
-
-  void resize(std::size_t count);
 
   std::size_t size_ = 0;
 };

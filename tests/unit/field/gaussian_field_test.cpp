@@ -198,9 +198,10 @@ TEST_CASE("crude bounds hold at every point of the box") {
 }
 
 TEST_CASE("crude bounds of one atom are its values at the nearest and the farthest point") {
-  NearAtoms atoms;
   const double w = 1.2, decay = 0.5;
-  atoms.add(0, 0, 0, w);
+  NearAtoms atoms;
+  std::vector<std::uint32_t> first = {0};
+  atoms.take({{0.0}, {0.0}, {0.0}, {w}}, first, 1);
   const Box box{{1, -1, 2}, {2, 2, 3}};  // nearest (1, 0, 2), farthest (2, 2, 3)
   const CrudeBounds bounds = crude_bounds(atoms, box, decay);
   CHECK(bounds.upper == Approx(std::exp(w - 0.5 * 5.0)).epsilon(1e-7));
