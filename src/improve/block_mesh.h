@@ -11,16 +11,54 @@
 
 namespace gaussmesh {
 
-/// Vertices of all arrays are numbered alike: first those of the block, then those outside of it that fixed
-/// triangles have, then the new ones.
-struct BlockMesh {
-  HalfEdgeMesh connectivity;    ///< of the triangles that lie in the block
-  std::vector<Triangle> fixed;  ///< those that only reach into it, and stay as they are
-  std::vector<Vec3> at;         ///< A, whole units
+/// What is known of vertices, as arrays that are numbered alike.
+struct MeshVertices {
+  std::vector<Vec3> at;  ///< A, whole units
   std::vector<Normal> normal;
   std::vector<float> size;               ///< wanted edge (A)
   std::vector<float> curvature;          ///< larger principal one (1/A) in absolute value; negative: not yet known
   std::vector<float> refinement;         ///< factor of the size where neighbouring triangles turned too far
+  std::vector<std::uint8_t> is_settled;  ///< nothing round it is bad, and nothing has changed there since that was seen
+
+  void reserve(std::size_t count) {
+    at.reserve(count);
+    normal.reserve(count);
+    size.reserve(count);
+    curvature.reserve(count);
+    refinement.reserve(count);
+    is_settled.reserve(count);
+  }
+  void resize(std::size_t count) {
+    at.resize(count);
+    normal.resize(count);
+    size.resize(count);
+    curvature.resize(count);
+    refinement.resize(count);
+    is_settled.resize(count);
+  }
+  void append(const MeshVertices& from, std::size_t v) {
+    at.push_back(from.at[v]);
+    normal.push_back(from.normal[v]);
+    size.push_back(from.size[v]);
+    curvature.push_back(from.curvature[v]);
+    refinement.push_back(from.refinement[v]);
+    is_settled.push_back(from.is_settled[v]);
+  }
+  /// Overwrites those from `first` on by all of `from`.
+  void replace(std::size_t first, const MeshVertices& from) {
+    std::copy(from.at.begin(), from.at.end(), at.begin() + first);
+    std::copy(from.normal.begin(), from.normal.end(), normal.begin() + first);
+    std::copy(from.size.begin(), from.size.end(), size.begin() + first);
+    std::copy(from.curvature.begin(), from.curvature.end(), curvature.begin() + first);
+    std::copy(from.refinement.begin(), from.refinement.end(), refinement.begin() + first);
+    std::copy(from.is_settled.begin(), from.is_settled.end(), is_settled.begin() + first);
+  }
+};
+
+/// Vertices: first those of the block, then those outside of it that fixed triangles have, then the new ones.
+struct BlockMesh : MeshVertices {
+  HalfEdgeMesh connectivity;             ///< of the triangles that lie in the block
+  std::vector<Triangle> fixed;           ///< those that only reach into it, and stay as they are
   std::vector<std::uint8_t> is_active;   ///< to be worked on
   std::vector<std::uint8_t> is_guarded;  ///< another sheet is near: triangles are kept apart by exact signs
   Box box;                               ///< vertices stay inside

@@ -90,11 +90,12 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   const Index g = c.twin(h), a = c.from(h), b = c.to(h), m = c.vertices(), s = h / 3, t = g / 3;
   const Triangle parts[4] = {
       {a, m, c.opposite(h)}, {m, b, c.opposite(h)}, {m, a, c.opposite(g)}, {b, m, c.opposite(g)}};
-  mesh.at.push_back(middle.at);
-  mesh.normal.push_back(middle.normal);
-  mesh.size.push_back(0.5f * (mesh.size[a] + mesh.size[b]));
-  mesh.curvature.push_back(-1.0f);
-  mesh.refinement.push_back(std::min(mesh.refinement[a], mesh.refinement[b]));
+  mesh.append(mesh, a);
+  mesh.put(m, middle);
+  mesh.size[m] = 0.5f * (mesh.size[a] + mesh.size[b]);
+  mesh.curvature[m] = -1.0f;
+  mesh.refinement[m] = std::min(mesh.refinement[a], mesh.refinement[b]);
+  mesh.is_settled[m] = 0;
   mesh.is_active.push_back(1);
   mesh.is_guarded.push_back(mesh.is_guarded[a] | mesh.is_guarded[b] | mesh.is_guarded[c.opposite(h)] |
                             mesh.is_guarded[c.opposite(g)]);
@@ -109,11 +110,7 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
     // The four parts among themselves: neighbours that fold over have turned far from the field.
   }
   if (!allowed) {
-    mesh.at.pop_back();
-    mesh.normal.pop_back();
-    mesh.size.pop_back();
-    mesh.curvature.pop_back();
-    mesh.refinement.pop_back();
+    mesh.resize(m);
     mesh.is_active.pop_back();
     mesh.is_guarded.pop_back();
     return false;

@@ -48,7 +48,8 @@ constexpr Sweep kSweeps[] = {
     {3, false, false, false}, {3, false, false, false}, {3, true, false, false}, {2, true, true, false}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follows them until two find nothing to do: what the first did not see at its planes the second does.
+/// Follows them until all vertices are settled, or two sweeps have found nothing to do: what the first did not see at its
+/// planes the second does.
 constexpr Sweep kExtraSweep{1, true, false, true};
 constexpr int kMostExtraSweeps = 12;
 constexpr int kIdleSweeps = 2;
@@ -69,6 +70,7 @@ WholeMesh start_with(SurfaceMesh traced, double spacing) {
   mesh.size.assign(mesh.at.size(), static_cast<float>(spacing));
   mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
+  mesh.is_settled.assign(mesh.at.size(), 0);
   return mesh;
 }
 
@@ -80,7 +82,8 @@ double mean_edge(const WholeMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// Makes only those vertices active that are near sharp edges or bad triangles. @return whether there are any
+/// Makes only those vertices active that are near sharp edges or bad triangles, and says that those far from both are
+/// settled. @return whether any are active
 bool activate_bad_places(BlockMesh& mesh) {
   constexpr int kRings = 4;
   const HalfEdgeMesh& c = mesh.connectivity;
@@ -104,6 +107,15 @@ bool activate_bad_places(BlockMesh& mesh) {
       });
     }
     front = std::move(next);
+  }
+  for (std::uint32_t v = 0; v < c.vertices(); ++v) {
+    if (!c.is_inner(v)) continue;
+    bool is_settled = !mesh.is_active[v];
+    // Edges whose ends are not both inner have not been looked at; triangles of active vertices will change.
+    c.visit_star(v, [&](std::uint32_t h) {
+      is_settled = is_settled && c.is_inner(c.to(h)) && !mesh.is_active[c.to(h)];
+    });
+    mesh.is_settled[v] = is_settled;
   }
   return any;
 }
@@ -154,20 +166,24 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   double all = kMostExtraSweeps * effort(kExtraSweep), done = 0.0;
   for (const Sweep& sweep : kSweeps) all += effort(sweep);
   const auto run = [&](const Sweep& sweep) {
-    std::atomic<bool> has_worked = false;
+    std::atomic<bool> is_idle = true;
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
     MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
     std::atomic<int> blocks_done = 0;
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
-      BlockMesh block = blocks.extract(b);
-      if (improve_block(block, field, now, guarding, sweep)) has_worked = true;
-      blocks.store(b, std::move(block));
+      if (sweep.is_extra && blocks.is_settled(b)) {
+        blocks.keep(b);
+      } else {
+        BlockMesh block = blocks.extract(b);
+        if (improve_block(block, field, now, guarding, sweep)) is_idle = false;
+        blocks.store(b, std::move(block));
+      }
       if (on_progress)
         on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
     mesh = std::move(blocks).join(threads);
     done += effort(sweep);
-    return has_worked.load();
+    return is_idle.load();
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
@@ -178,7 +194,11 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     }
   }
   int idle = 0;
-  for (int i = 0; i < kMostExtraSweeps && idle < kIdleSweeps; ++i) idle = run(kExtraSweep) ? 0 : idle + 1;
+  const auto is_settled = [](std::uint8_t settled) { return settled != 0; };
+  for (int i = 0; i < kMostExtraSweeps && idle < kIdleSweeps; ++i) {
+    idle = run(kExtraSweep) ? idle + 1 : 0;
+    if (std::all_of(mesh.is_settled.begin(), mesh.is_settled.end(), is_settled)) break;
+  }
   if (on_progress) on_progress(1.0);
   return finish(std::move(mesh));
 }

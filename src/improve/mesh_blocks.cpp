@@ -1,5 +1,6 @@
 #include "improve/mesh_blocks.h"
 
+#include <numeric>
 #include <unordered_map>
 
 #include "core/parallel.h"
@@ -135,21 +136,10 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
     triangles.push_back({local_[t[0]], local_[t[1]], local_[t[2]]});
   }
   const std::size_t count = own_count + outside.size();
-  BlockMesh result{HalfEdgeMesh(std::move(triangles), count), {}, {}, {}, {}, {}, {}, {}, {}, boxes_[block]};
-  const auto copy = [&](std::uint32_t v) {
-    result.at.push_back(mesh_.at[v]);
-    result.normal.push_back(mesh_.normal[v]);
-    result.size.push_back(mesh_.size[v]);
-    result.curvature.push_back(mesh_.curvature[v]);
-    result.refinement.push_back(mesh_.refinement[v]);
-  };
-  result.at.reserve(count + count / 4);
-  result.normal.reserve(count + count / 4);
-  result.size.reserve(count + count / 4);
-  result.curvature.reserve(count + count / 4);
-  result.refinement.reserve(count + count / 4);
-  for (std::size_t i = 0; i < own_count; ++i) copy(own[i]);
-  for (const std::uint32_t v : outside) copy(v);
+  BlockMesh result{{}, HalfEdgeMesh(std::move(triangles), count), {}, {}, {}, boxes_[block]};
+  result.reserve(count + count / 4);
+  for (std::size_t i = 0; i < own_count; ++i) result.append(mesh_, own[i]);
+  for (const std::uint32_t v : outside) result.append(mesh_, v);
   result.is_active.assign(count, 1);
   result.is_guarded.assign(count, 0);
   for (std::uint32_t i = first_fixed_[block]; i < first_fixed_[block + 1]; ++i) {
@@ -165,6 +155,27 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
     result.fixed.push_back(t);
   }
   return result;
+}
+
+bool MeshBlocks::is_settled(std::size_t block) const {
+  return std::all_of(vertices_.begin() + first_vertex_[block], vertices_.begin() + first_vertex_[block + 1],
+                     [&](std::uint32_t v) { return mesh_.is_settled[v] != 0; });
+}
+
+void MeshBlocks::keep(std::size_t block) {
+  Stored& stored = stored_[block];
+  const std::size_t count = first_vertex_[block + 1] - first_vertex_[block];
+  stored.number.resize(count);
+  std::iota(stored.number.begin(), stored.number.end(), 0u);
+  stored.part.reserve(count);
+  for (std::uint32_t i = first_vertex_[block]; i < first_vertex_[block + 1]; ++i) {
+    stored.part.append(mesh_, vertices_[i]);
+  }
+  stored.part.triangles.reserve(first_triangle_[block + 1] - first_triangle_[block]);
+  for (std::uint32_t i = first_triangle_[block]; i < first_triangle_[block + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[triangles_[i]];
+    stored.part.triangles.push_back({local_[t[0]], local_[t[1]], local_[t[2]]});
+  }
 }
 
 void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
@@ -185,11 +196,7 @@ void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
   part.reserve(vertices);
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     if (number[v] == HalfEdgeMesh::kNone) continue;
-    part.at.push_back(worked.at[v]);
-    part.normal.push_back(worked.normal[v]);
-    part.size.push_back(worked.size[v]);
-    part.curvature.push_back(worked.curvature[v]);
-    part.refinement.push_back(worked.refinement[v]);
+    part.append(worked, v);
   }
   std::size_t triangles = 0;
   for (std::uint32_t t = 0; t < c.triangles(); ++t) triangles += c.has_triangle(t);
@@ -220,19 +227,11 @@ WholeMesh MeshBlocks::join(int threads) && {
   for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_}) *list = std::vector<std::uint32_t>();
 
   WholeMesh result;
-  result.at.resize(first_vertex.back());
-  result.normal.resize(first_vertex.back());
-  result.size.resize(first_vertex.back());
-  result.curvature.resize(first_vertex.back());
-  result.refinement.resize(first_vertex.back());
+  result.resize(first_vertex.back());
   result.triangles.resize(first_triangle.back() + between.size());
   parallel_for(size(), threads, [&](std::size_t b) {
     WholeMesh& part = stored_[b].part;
-    std::copy(part.at.begin(), part.at.end(), result.at.begin() + first_vertex[b]);
-    std::copy(part.normal.begin(), part.normal.end(), result.normal.begin() + first_vertex[b]);
-    std::copy(part.size.begin(), part.size.end(), result.size.begin() + first_vertex[b]);
-    std::copy(part.curvature.begin(), part.curvature.end(), result.curvature.begin() + first_vertex[b]);
-    std::copy(part.refinement.begin(), part.refinement.end(), result.refinement.begin() + first_vertex[b]);
+    result.replace(first_vertex[b], part);
     std::uint32_t at = first_triangle[b];
     for (const Triangle& t : part.triangles) {
       result.triangles[at++] = {t[0] + first_vertex[b], t[1] + first_vertex[b], t[2] + first_vertex[b]};

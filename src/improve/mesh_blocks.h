@@ -8,22 +8,8 @@
 namespace gaussmesh {
 
 /// The whole mesh between two sweeps.
-struct WholeMesh {
-  std::vector<Vec3> at;  ///< A, whole units
-  std::vector<Normal> normal;
-  std::vector<float> size;  ///< wanted edge (A)
-  std::vector<float> curvature;
-  std::vector<float> refinement;
+struct WholeMesh : MeshVertices {
   std::vector<Triangle> triangles;
-
-  /// Room for vertices.
-  void reserve(std::size_t vertices) {
-    at.reserve(vertices);
-    normal.reserve(vertices);
-    size.reserve(vertices);
-    curvature.reserve(vertices);
-    refinement.reserve(vertices);
-  }
 };
 
 /// The mesh, cut by the planes of a cubic grid.
@@ -40,11 +26,17 @@ class MeshBlocks {
 
   std::size_t size() const { return boxes_.size(); }
 
+  /// Whether all vertices of a block are settled. Thread-safe.
+  bool is_settled(std::size_t block) const;
+
   /// One block to work on. Thread-safe.
   BlockMesh extract(std::size_t block) const;
 
   /// Keeps what became of a block. Thread-safe for different blocks.
   void store(std::size_t block, BlockMesh&& worked);
+
+  /// The same for a block that stays as it is.
+  void keep(std::size_t block);
 
   /// The mesh of all stored blocks and of the triangles between them, blocks in the order of their first vertices.
   /// All blocks have been stored. What was cut up is given back first: there are never more than two whole meshes.

@@ -1,9 +1,11 @@
 // Molecules of the kinds that bounds must hold for, each with the place where its surface is.
 #pragma once
 
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "field/near_atoms.h"
 #include "support/exact_field.h"
 #include "support/sampling.h"
 
@@ -39,6 +41,15 @@ inline std::vector<FieldSample> field_samples(std::uint64_t seed) {
   for (Atom& a : samples.back().atoms) a.x += 999990.0, a.y -= 999990.0, a.z += 500000.0;
   samples.back().room = box_around({999990.0, -999990.0, 500000.0}, 5.0);
   return samples;
+}
+
+/// All of the atoms, none left out.
+inline NearAtoms list_of(const WeightedCentres& atoms) {
+  std::vector<std::uint32_t> all(atoms.x.size());
+  std::iota(all.begin(), all.end(), 0u);
+  NearAtoms list;
+  list.take(atoms, all, atoms.x.size());
+  return list;
 }
 
 inline constexpr double kDecays[] = {0.4, 0.6, 1.0, 2.0};

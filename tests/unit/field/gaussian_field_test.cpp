@@ -199,9 +199,7 @@ TEST_CASE("crude bounds hold at every point of the box") {
 
 TEST_CASE("crude bounds of one atom are its values at the nearest and the farthest point") {
   const double w = 1.2, decay = 0.5;
-  NearAtoms atoms;
-  std::vector<std::uint32_t> first = {0};
-  atoms.take({{0.0}, {0.0}, {0.0}, {w}}, first, 1);
+  NearAtoms atoms = list_of({{0.0}, {0.0}, {0.0}, {w}});
   const Box box{{1, -1, 2}, {2, 2, 3}};  // nearest (1, 0, 2), farthest (2, 2, 3)
   const CrudeBounds bounds = crude_bounds(atoms, box, decay);
   CHECK(bounds.upper == Approx(std::exp(w - 0.5 * 5.0)).epsilon(1e-7));

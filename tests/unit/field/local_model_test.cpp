@@ -176,12 +176,9 @@ TEST_CASE("where the slope is largest and about to change its sign, boxes of eve
   const double decay = 0.5, a = std::sqrt(1.2);
   std::size_t claims = 0, boxes = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    NearAtoms pair;
-    Vec3 at{};
-    for (const double x : {a, -a}) {
-      at[axis] = x;
-      pair.add(at[0], at[1], at[2], 0.0);
-    }
+    std::array<std::vector<double>, 3> at{{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}};
+    at[axis] = {a, -a};
+    const NearAtoms pair = list_of({at[0], at[1], at[2], {0.0, 0.0}});
     const auto slope_at = [&](double x) { return 2.0 * decay * (a * std::tanh(2.0 * decay * a * x) - x); };
     for (double middle = -1.2; middle <= 1.2; middle += 0.04) {
       for (double half = 0.02; half < 1.0; half *= 1.2) {
@@ -205,8 +202,7 @@ TEST_CASE("where the slope is largest and about to change its sign, boxes of eve
 }
 
 TEST_CASE("one atom: the value is a parabola, and its bounds are close to exact") {
-  NearAtoms one;
-  one.add(0.5, 0, 0, 2.0);
+  const NearAtoms one = list_of({{0.5}, {0.0}, {0.0}, {2.0}});
   const double decay = 0.7;
   const Box box{{1.0, -0.25, 0.5}, {1.5, 0.5, 1.0}};
   const auto psi = [&](double x, double y, double z) {

@@ -101,8 +101,7 @@ TEST_CASE("side_of: what it claims is so, and it claims it at all but a sliver o
 
 TEST_CASE("next to the surface the side is still told, a hundred roundings away") {
   const double radius = sphere_radius(2.0, 0.6, 1.7);
-  NearAtoms near;
-  near.add(0, 0, 0, 0.6 * 4.0 - std::log(1.7));
+  NearAtoms near = list_of({{0.0}, {0.0}, {0.0}, {0.6 * 4.0 - std::log(1.7)}});
   CHECK(side_of(evaluate(near, 0.6, {radius - 1e-12, 0, 0}), near) == Side::kInside);
   CHECK(side_of(evaluate(near, 0.6, {radius + 1e-12, 0, 0}), near) == Side::kOutside);
   CHECK(side_of(evaluate(near, 0.6, {radius, 0, 0}), near) == Side::kUnknown);
@@ -114,14 +113,12 @@ TEST_CASE("next to the surface the side is still told, a hundred roundings away"
 TEST_CASE("far from every atom a point is outside") {
   const NearAtoms none;
   CHECK(side_of(evaluate(none, 0.6, {0, 0, 0}), none) == Side::kOutside);
-  NearAtoms one;
-  one.add(0, 0, 0, 1.0);
+  NearAtoms one = list_of({{0.0}, {0.0}, {0.0}, {1.0}});
   CHECK(side_of(evaluate(one, 0.6, {1e6, 0, 0}), one) == Side::kOutside);
 }
 
 TEST_CASE("deep inside a sphere of 1000 A nothing overflows") {
-  NearAtoms one;
-  one.add(0, 0, 0, 2.0 * 1e6);
+  NearAtoms one = list_of({{0.0}, {0.0}, {0.0}, {2.0 * 1e6}});
   const PointValue value = evaluate(one, 2.0, {0.5, 0, 0});
   CHECK(value.value == Approx(2e6));
   CHECK(value.gradient[0] == Approx(-2.0));

@@ -20,6 +20,7 @@ WholeMesh ring_mesh() {
   mesh.size.assign(mesh.at.size(), 0.5f);
   mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
+  mesh.is_settled.assign(mesh.at.size(), 0);
   mesh.triangles = traced.mesh.triangles;
   return mesh;
 }

@@ -328,8 +328,7 @@ TEST_CASE("a point exactly on the surface cannot be told: that is reported, not 
 }
 
 TEST_CASE("refine_root finds the root from any guess in the bracket") {
-  NearAtoms near;
-  near.add(0, 0, 0, 0.6 * 4.0);
+  NearAtoms near = list_of({{0.0}, {0.0}, {0.0}, {0.6 * 4.0}});
   for (const double guess : {0.51, 1.0, 1.9, 1.999999, 2.4, -5.0, 7.0, std::nan("")}) {
     const LineRoot root = refine_root(near, 0.6, {0, 0, 0}, 0, 0.5, 2.5, true, guess);
     CHECK(std::abs(root.position - 2.0) < 1e-10);
