@@ -5,7 +5,6 @@
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
-#include "field/point_value.h"
 #include "roots/edge_roots.h"
 
 namespace gaussmesh {
@@ -14,27 +13,53 @@ namespace {
 constexpr double kCellSize = 1.5;  // A: small beside the reach of an atom, large beside a triangle
 
 /// Log-weights, relative to c, below which an atom is left out, for rough and exact places.
-constexpr double kCuts[] = {16.0, 24.0};
+constexpr double kRoughCut = 16.0, kExactCut = 24.0;
+
+/// Exponents of this size are good to some 1e-6 in single precision.
+constexpr double kLargestRoughWeight = 32.0;
+
+/// Rough atoms are so many at a time; those that fill up have no weight.
+constexpr std::size_t kRoughLanes = 16;
+constexpr float kNoWeight = -1e30f;
 
 /// Lists are asked for with points this much outside their cells (in cells) by way of a Newton step.
 constexpr double kMargin = 0.1;
 
-/// Sums of the weights, and of the weights times offsets of the point from the atoms and their products.
-struct SecondSums {
-  double total = 0.0, x = 0.0, y = 0.0, z = 0.0;
-  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+struct FirstSums {
+  float total = 0.0f, x = 0.0f, y = 0.0f, z = 0.0f;
 };
 
 GAUSSMESH_SIMD_CLONES
-SecondSums second_moments(const double* x, const double* y, const double* z, const double* w, std::size_t n,
-                          double d, double px, double py, double pz) {
-  double total = 0.0, sx = 0.0, sy = 0.0, sz = 0.0;
-  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+FirstSums first_sums(const float* x, const float* y, const float* z, const float* w, std::size_t n, float d, float px,
+                     float py, float pz) {
+  float total = 0.0f, sx = 0.0f, sy = 0.0f, sz = 0.0f;
+#pragma omp simd reduction(+ : total, sx, sy, sz)
+  for (std::size_t i = 0; i < n; ++i) {
+    const float ux = px - x[i], uy = py - y[i], uz = pz - z[i];
+    const float a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz));
+    total += a;
+    sx += a * ux;
+    sy += a * uy;
+    sz += a * uz;
+  }
+  return {total, sx, sy, sz};
+}
+
+/// Sums of the weights, and of the weights times offsets of the point from the atoms and their products.
+template <typename Real>
+struct SecondSums {
+  Real total, x, y, z, xx, yy, zz, xy, xz, yz;
+};
+
+template <typename Real>
+[[gnu::always_inline]] inline SecondSums<Real> sum_up(const Real* x, const Real* y, const Real* z, const Real* w,
+                                                      std::size_t n, Real d, Real px, Real py, Real pz) {
+  Real total = 0, sx = 0, sy = 0, sz = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 #pragma omp simd reduction(+ : total, sx, sy, sz, xx, yy, zz, xy, xz, yz)
   for (std::size_t i = 0; i < n; ++i) {
-    const double ux = px - x[i], uy = py - y[i], uz = pz - z[i];
-    const double a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz));
-    const double ax = a * ux, ay = a * uy, az = a * uz;
+    const Real ux = px - x[i], uy = py - y[i], uz = pz - z[i];
+    const Real a = vector_exp(w[i] - d * (ux * ux + uy * uy + uz * uz));
+    const Real ax = a * ux, ay = a * uy, az = a * uz;
     total += a;
     sx += ax;
     sy += ay;
@@ -47,6 +72,32 @@ SecondSums second_moments(const double* x, const double* y, const double* z, con
     yz += ay * uz;
   }
   return {total, sx, sy, sz, xx, yy, zz, xy, xz, yz};
+}
+
+GAUSSMESH_SIMD_CLONES
+SecondSums<double> second_sums(const double* x, const double* y, const double* z, const double* w, std::size_t n,
+                               double d, double px, double py, double pz) {
+  return sum_up(x, y, z, w, n, d, px, py, pz);
+}
+
+GAUSSMESH_SIMD_CLONES
+SecondSums<float> second_sums(const float* x, const float* y, const float* z, const float* w, std::size_t n, float d,
+                              float px, float py, float pz) {
+  return sum_up(x, y, z, w, n, d, px, py, pz);
+}
+
+/// grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by phi_i.
+template <typename Real>
+FieldJet jet_of(const SecondSums<Real>& s, double d) {
+  const double f = 1.0 / double(s.total), q = 4.0 * d * d;
+  const Vec3 m{f * double(s.x), f * double(s.y), f * double(s.z)};
+  FieldJet jet;
+  jet.value = std::log(double(s.total));
+  jet.gradient = -2.0 * d * m;
+  jet.hessian = {q * (f * double(s.xx) - m[0] * m[0]) - 2.0 * d, q * (f * double(s.yy) - m[1] * m[1]) - 2.0 * d,
+                 q * (f * double(s.zz) - m[2] * m[2]) - 2.0 * d, q * (f * double(s.xy) - m[0] * m[1]),
+                 q * (f * double(s.xz) - m[0] * m[2]),           q * (f * double(s.yz) - m[1] * m[2])};
+  return jet;
 }
 
 }  // namespace
@@ -62,42 +113,79 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
     cells_[k] = std::max(1, static_cast<int>(std::ceil((box.hi[k] - box.lo[k]) / cell_size_ - 1e-9)));
     count *= static_cast<std::size_t>(cells_[k]);
   }
-  field.collect_near(wide, atoms_, kCuts[static_cast<int>(Accuracy::kExact)]);
-  for (auto& lists : lists_) lists.resize(count);
+  field.collect_near(wide, atoms_, kExactCut);
+  is_rough_usable_ = atoms_.w_size <= kLargestRoughWeight;
+  lists_.resize(count);
+  rough_lists_.resize(count);
 }
 
-const NearAtoms& BlockField::atoms_at(const Vec3& point, Accuracy accuracy) {
-  std::array<int, 3> index;
-  for (int k = 0; k < 3; ++k) index[k] = slab_of((point[k] - box_.lo[k]) / cell_size_, cells_[k]);
-  AtomList& list = lists_[static_cast<std::size_t>(accuracy)]
-                         [static_cast<std::size_t>((index[0] * cells_[1] + index[1]) * cells_[2] + index[2])];
-  if (list.is_made) return list.atoms;
-  list.is_made = true;
-  Box cell;
+std::array<int, 3> BlockField::cell_of(const Vec3& point) const {
+  std::array<int, 3> cell;
+  for (int k = 0; k < 3; ++k) cell[k] = slab_of((point[k] - box_.lo[k]) / cell_size_, cells_[k]);
+  return cell;
+}
+
+std::size_t BlockField::number_of(const std::array<int, 3>& cell) const {
+  return static_cast<std::size_t>((cell[0] * cells_[1] + cell[1]) * cells_[2] + cell[2]);
+}
+
+Box BlockField::box_around(const std::array<int, 3>& cell) const {
+  Box box;
   for (int k = 0; k < 3; ++k) {
-    cell.lo[k] = box_.lo[k] + (index[k] - kMargin) * cell_size_;
-    cell.hi[k] = box_.lo[k] + (index[k] + 1 + kMargin) * cell_size_;
+    box.lo[k] = box_.lo[k] + (cell[k] - kMargin) * cell_size_;
+    box.hi[k] = box_.lo[k] + (cell[k] + 1 + kMargin) * cell_size_;
   }
-  list.atoms.restrict_from(atoms_, cell, decay_, kCuts[static_cast<std::size_t>(accuracy)]);
-  return list.atoms;
+  return box;
 }
 
-FieldJet BlockField::jet(const Vec3& p) {
-  const NearAtoms& near = atoms_at(p, Accuracy::kExact);
-  const SecondSums s = second_moments(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(),
-                                      decay_, p[0], p[1], p[2]);
-  // grad log phi = -2 d <u>, Hessian = 4 d^2 (<u u^T> - <u> <u>^T) - 2 d, with means over the atoms weighted by
-  // phi_i.
-  const double f = 1.0 / s.total, d = decay_;
-  const Vec3 m{f * s.x, f * s.y, f * s.z};
-  FieldJet jet;
-  jet.value = std::log(s.total);
-  jet.gradient = -2.0 * d * m;
-  const double q = 4.0 * d * d;
-  jet.hessian = {q * (f * s.xx - m[0] * m[0]) - 2.0 * d, q * (f * s.yy - m[1] * m[1]) - 2.0 * d,
-                 q * (f * s.zz - m[2] * m[2]) - 2.0 * d, q * (f * s.xy - m[0] * m[1]),
-                 q * (f * s.xz - m[0] * m[2]),           q * (f * s.yz - m[1] * m[2])};
-  return jet;
+const NearAtoms& BlockField::atoms_at(const Vec3& point) {
+  const std::array<int, 3> cell = cell_of(point);
+  NearAtoms& list = lists_[number_of(cell)];
+  if (list.size() == 0) list.restrict_from(atoms_, box_around(cell), decay_, kExactCut);
+  return list;
+}
+
+const RoughAtoms& BlockField::rough_atoms_at(const Vec3& point) {
+  const std::array<int, 3> cell = cell_of(point);
+  RoughAtoms& list = rough_lists_[number_of(cell)];
+  if (!list.x.empty()) return list;
+  const Box box = box_around(cell);
+  some_.restrict_from(atoms_, box, decay_, kRoughCut);
+  list.origin = 0.5 * (box.lo + box.hi);
+  const std::size_t padded = (some_.size() / kRoughLanes + 1) * kRoughLanes;
+  const auto fill = [&](const std::vector<double>& from, double origin, std::vector<float>& to) {
+    to.assign(padded, 0.0f);
+    for (std::size_t i = 0; i < some_.size(); ++i) to[i] = static_cast<float>(from[i] - origin);
+  };
+  fill(some_.x, list.origin[0], list.x);
+  fill(some_.y, list.origin[1], list.y);
+  fill(some_.z, list.origin[2], list.z);
+  fill(some_.w, 0.0, list.w);
+  std::fill(list.w.begin() + static_cast<std::ptrdiff_t>(some_.size()), list.w.end(), kNoWeight);
+  return list;
+}
+
+PointValue BlockField::evaluate_roughly(const Vec3& point) {
+  const RoughAtoms& near = rough_atoms_at(point);
+  const Vec3 p = point - near.origin;
+  const FirstSums s =
+      first_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.x.size(), static_cast<float>(decay_),
+                 static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+  const double f = -2.0 * decay_ / double(s.total);
+  return {std::log(double(s.total)), 0.0, {f * double(s.x), f * double(s.y), f * double(s.z)}};
+}
+
+FieldJet BlockField::jet(const Vec3& point) {
+  if (!is_rough_usable_) {
+    const NearAtoms& near = atoms_at(point);
+    return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(), decay_,
+                              point[0], point[1], point[2]), decay_);
+  }
+  const RoughAtoms& near = rough_atoms_at(point);
+  const Vec3 p = point - near.origin;
+  return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.x.size(),
+                            static_cast<float>(decay_), static_cast<float>(p[0]), static_cast<float>(p[1]),
+                            static_cast<float>(p[2])), decay_);
 }
 
 std::optional<Place> BlockField::project(const Vec3& point, double farthest, Accuracy accuracy) {
@@ -105,11 +193,14 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
   // (A) leaves less than a rounding of the result; the second grows with the triangles, since those are small where
   // k is large.
   constexpr double kGoodStep = 1e-5, kRoughStep = 1e-3, kRoughPart = 0.004;
-  const double good_step =
-      accuracy == Accuracy::kExact ? kGoodStep : std::clamp(kRoughPart * farthest, kGoodStep, kRoughStep);
+  constexpr int kRoughIterations = 5;  // where these do not get there, single precision is the reason
+  const bool may_be_rough = accuracy == Accuracy::kRough && is_rough_usable_;
+  const double rough_step = std::clamp(kRoughPart * farthest, kGoodStep, kRoughStep);
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
-    const PointValue v = evaluate(atoms_at(p, accuracy), decay_, p);
+    const bool is_rough = may_be_rough && iteration < kRoughIterations;
+    const double good_step = is_rough ? rough_step : kGoodStep;
+    const PointValue v = is_rough ? evaluate_roughly(p) : evaluate(atoms_at(p), decay_, p);
     const double slope = length(v.gradient);
     if (!(slope > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.5 * farthest, 0.5 * farthest);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "field/gaussian_field.h"
+#include "field/point_value.h"
 #include "improve/vectors.h"
 
 namespace gaussmesh {
@@ -30,14 +30,21 @@ enum class Accuracy {
   kExact,  ///< within a rounding of its coordinates
 };
 
+/// Atoms in single precision, relative to a place near them; filled up to whole SIMD vectors.
+struct RoughAtoms {
+  Vec3 origin{};                  ///< A
+  std::vector<float> x, y, z, w;  ///< centres (A) and log-weights
+};
+
 /// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
 /// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where
-/// rough places are asked for; no bounds are kept, since the verdict on a finished mesh does not come from here.
+/// rough places are asked for; those are found in single precision. No bounds are kept, since the verdict on a finished
+/// mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);
 
-  /// The point lies in the box, or near it.
+  /// The point lies in the box, or near it. Good to some 1e-5, which does for the sizes of triangles.
   FieldJet jet(const Vec3& point);
 
   /// Newton's method on log phi along its gradient, from a point near the surface.
@@ -50,19 +57,21 @@ class BlockField {
  private:
   static constexpr int kMostCells = 16;  ///< along an axis
 
-  struct AtomList {
-    NearAtoms atoms;
-    bool is_made = false;
-  };
-
-  const NearAtoms& atoms_at(const Vec3& point, Accuracy accuracy);
+  std::array<int, 3> cell_of(const Vec3& point) const;
+  std::size_t number_of(const std::array<int, 3>& cell) const;
+  Box box_around(const std::array<int, 3>& cell) const;
+  const NearAtoms& atoms_at(const Vec3& point);
+  const RoughAtoms& rough_atoms_at(const Vec3& point);
+  PointValue evaluate_roughly(const Vec3& point);
 
   double decay_;
   Box box_;
   double cell_size_;
   std::array<int, 3> cells_{};
-  NearAtoms atoms_;
-  std::array<std::vector<AtomList>, 2> lists_;  ///< by accuracy
+  bool is_rough_usable_;  ///< no log-weight is so large that single precision would lose the surface
+  NearAtoms atoms_, some_;
+  std::vector<NearAtoms> lists_;         ///< by cell; no atoms: not yet made
+  std::vector<RoughAtoms> rough_lists_;  ///< the same
 };
 
 /// Principal curvature (1/A) of the level set through the jet's point, the larger one in absolute value.

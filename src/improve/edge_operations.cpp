@@ -148,7 +148,8 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
   return true;
 }
 
-std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor) {
+std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor,
+                             Accuracy accuracy) {
   const HalfEdgeMesh& c = mesh.connectivity;
   const Index count = c.half_edges();  // new edges have their turn in the next round
   std::size_t made = 0;
@@ -157,7 +158,7 @@ std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& fie
     const double most = factor * wanted_size(mesh, h), length_sq = edge_length_sq(mesh, h);
     if (length_sq <= most * most) continue;
     const std::optional<Place> middle =
-        field.project(0.5 * (mesh.at[c.from(h)] + mesh.at[c.to(h)]), 0.5 * std::sqrt(length_sq));
+        field.project(0.5 * (mesh.at[c.from(h)] + mesh.at[c.to(h)]), 0.5 * std::sqrt(length_sq), accuracy);
     if (middle) made += try_split(mesh, guard, h, *middle);
   }
   return made;

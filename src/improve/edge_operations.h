@@ -12,7 +12,8 @@ namespace gaussmesh {
 /// its numbers, and returns how many operations it made.
 
 /// Splits edges longer than `factor` times the wanted size in the middle; new vertices are put on the surface.
-std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor);
+std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor,
+                             Accuracy accuracy);
 
 /// Collapses edges shorter than `factor` times the wanted size, into the end that leaves the better triangles.
 std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double factor);

@@ -110,12 +110,16 @@ bool activate_bad_places(BlockMesh& mesh) {
   }
   for (std::uint32_t v = 0; v < c.vertices(); ++v) {
     if (!c.is_inner(v)) continue;
-    bool is_settled = !mesh.is_active[v];
-    // Edges whose ends are not both inner have not been looked at; triangles of active vertices will change.
+    bool changes = mesh.is_active[v] != 0, all_inner = true;  // edges that end on the boundary have not been looked at
     c.visit_star(v, [&](std::uint32_t h) {
-      is_settled = is_settled && c.is_inner(c.to(h)) && !mesh.is_active[c.to(h)];
+      changes = changes || mesh.is_active[c.to(h)];
+      all_inner = all_inner && c.is_inner(c.to(h));
     });
-    mesh.is_settled[v] = is_settled;
+    if (changes) {
+      mesh.is_settled[v] = 0;
+    } else if (all_inner) {
+      mesh.is_settled[v] = 1;
+    }
   }
   return any;
 }
@@ -124,17 +128,18 @@ bool activate_bad_places(BlockMesh& mesh) {
 bool improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
                    const Sweep& sweep) {
   if (sweep.is_extra && !activate_bad_places(mesh)) return false;
+  const Accuracy accuracy = sweep.is_extra ? Accuracy::kExact : Accuracy::kRough;
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
   SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
-  for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor) > 0; ++i) {
+  for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor, accuracy) > 0; ++i) {
   }
   for (int round = 0; round < sweep.rounds; ++round) {
-    split_long_edges(mesh, guard, field, kSplitFactor);
+    split_long_edges(mesh, guard, field, kSplitFactor, accuracy);
     collapse_short_edges(mesh, guard, kCollapseFactor);
     flip_edges(mesh, guard);
     even_out_valences(mesh, guard);
-    relax_vertices(mesh, guard, field, sweep.is_extra ? Accuracy::kExact : Accuracy::kRough);
+    relax_vertices(mesh, guard, field, accuracy);
   }
   if (sweep.settles) settle_vertices(mesh, field);
   if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);

@@ -1,5 +1,7 @@
 #include "improve/sheet_guard.h"
 
+#include "core/simd.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -13,28 +15,18 @@ struct NormalBox {
       hi[k] = std::max(hi[k], n[k]);
     }
   }
-  void add(const NormalBox& other) {
-    for (int k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], other.lo[k]);
-      hi[k] = std::max(hi[k], other.hi[k]);
-    }
-  }
-  /// Least scalar product of n and a vector in the box.
-  float least_cosine(const Normal& n) const {
+  /// Least scalar product of a vector in each of two boxes.
+  float least_cosine(const NormalBox& other) const {
     float sum = 0.0f;
-    for (int k = 0; k < 3; ++k) sum += std::min(n[k] * lo[k], n[k] * hi[k]);
-    return sum;
-  }
-  /// |m - n|^2 = 2 - 2 cos for unit vectors.
-  double most_chord_sq() const {
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) sum += double(hi[k] - lo[k]) * double(hi[k] - lo[k]);
+    for (int k = 0; k < 3; ++k) {
+      sum += std::min({lo[k] * other.lo[k], lo[k] * other.hi[k], hi[k] * other.lo[k], hi[k] * other.hi[k]});
+    }
     return sum;
   }
 };
 
 /// Vertices whose normals differ by more than this (cosine; 75 degrees) and which are near are of two sheets.
-constexpr double kOtherSheet = 0.25;
+constexpr float kOtherSheet = 0.25f;
 
 /// What counts as near, in wanted sizes. Triangles of that size turn by about a radian at most, and lie within a
 /// fifth of it from the surface: sheets farther apart than two fifths cannot meet, and where they are nearer, one
@@ -42,51 +34,97 @@ constexpr double kOtherSheet = 0.25;
 /// nothing.
 constexpr double kReachInSizes = 1.0;
 
-/// The vertices of a block in a grid of cells as wide as `reach`.
+/// Places relative to the block (A), normals and reaches (A) of vertices.
+struct VertexArrays {
+  std::vector<float> x, y, z, nx, ny, nz, reach;
+};
+
+/// Vertices with numbers first .. last - 1.
+struct Run {
+  std::uint32_t first, last;
+};
+
+/// Whether any vertex of the runs is of another sheet than v and within reach of it, or v within its reach.
+GAUSSMESH_SIMD_CLONES
+bool has_close_sheet(const VertexArrays& a, std::uint32_t v, const Run* runs, std::size_t count) {
+  const float *ax = a.x.data(), *ay = a.y.data(), *az = a.z.data(), *anx = a.nx.data(), *any = a.ny.data(),
+              *anz = a.nz.data(), *areach = a.reach.data();
+  const float x = ax[v], y = ay[v], z = az[v], nx = anx[v], ny = any[v], nz = anz[v], reach = areach[v];
+  for (std::size_t r = 0; r < count; ++r) {
+    int found = 0;
+#pragma omp simd reduction(| : found)
+    for (std::uint32_t i = runs[r].first; i < runs[r].last; ++i) {
+      const float dx = ax[i] - x, dy = ay[i] - y, dz = az[i] - z;
+      const float most = areach[i] > reach ? areach[i] : reach;
+      found |= int{nx * anx[i] + ny * any[i] + nz * anz[i] < kOtherSheet} &
+               int{dx * dx + dy * dy + dz * dz < most * most};
+    }
+    if (found != 0) return true;
+  }
+  return false;
+}
+
+/// The vertices of a block in a grid of cells as wide as `reach`, which no vertex reaches farther than.
 class VertexGrid {
  public:
-  VertexGrid(const BlockMesh& mesh, double reach)
-      : mesh_(mesh), reach_(reach), first_(kCells * kCells * kCells + 1, 0) {
+  VertexGrid(const BlockMesh& mesh, double reach) : first_(kCells * kCells * kCells + 1, 0) {
     // Cells no narrower than the reach; what lies outside the box goes to the cells at its sides.
     double width = 0.0;
     for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
-    cell_size_ = std::max(reach, width / kCells);
-    cells_of_.reserve(mesh.at.size());
-    for (const Vec3& p : mesh.at) cells_of_.push_back(cell_of(p));
-    for (const std::uint32_t cell : cells_of_) ++first_[cell + 1];
+    const double cell_size = std::max(reach, width / kCells);
+    std::vector<std::uint32_t> cell_of;
+    cell_of.reserve(mesh.at.size());
+    for (const Vec3& p : mesh.at) {
+      int cell = 0;
+      for (int k = 0; k < 3; ++k) cell = cell * kCells + slab_of((p[k] - mesh.box.lo[k]) / cell_size, kCells);
+      cell_of.push_back(static_cast<std::uint32_t>(cell));
+    }
+    for (const std::uint32_t cell : cell_of) ++first_[cell + 1];
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     sorted_.resize(mesh.at.size());
-    std::vector<std::uint32_t> fill(first_.begin(), first_.end() - 1);
-    for (std::uint32_t v = 0; v < mesh.at.size(); ++v) sorted_[fill[cells_of_[v]]++] = v;
+    for (auto* array : {&of_.x, &of_.y, &of_.z, &of_.nx, &of_.ny, &of_.nz, &of_.reach}) array->resize(mesh.at.size());
     boxes_.resize(kCells * kCells * kCells);
-    for (std::uint32_t v = 0; v < mesh.at.size(); ++v) boxes_[cells_of_[v]].add(mesh.normal[v]);
+    std::vector<std::uint32_t> fill(first_.begin(), first_.end() - 1);
+    for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
+      const std::uint32_t i = fill[cell_of[v]]++;
+      sorted_[i] = v;
+      const Normal& n = mesh.normal[v];
+      boxes_[cell_of[v]].add(n);
+      of_.x[i] = static_cast<float>(mesh.at[v][0] - mesh.box.lo[0]);
+      of_.y[i] = static_cast<float>(mesh.at[v][1] - mesh.box.lo[1]);
+      of_.z[i] = static_cast<float>(mesh.at[v][2] - mesh.box.lo[2]);
+      of_.nx[i] = n[0];
+      of_.ny[i] = n[1];
+      of_.nz[i] = n[2];
+      of_.reach[i] = static_cast<float>(std::min(reach, kReachInSizes * double(mesh.size[v])));
+    }
   }
 
   /// Calls mark(v) for every vertex that has one of another sheet within reach; also for those that stay where they
   /// are, since what moves is tested against their triangles.
   template <typename Mark>
   void find_close_sheets(const Mark& mark) const {
-    constexpr double kChordSq = 2.0 - 2.0 * kOtherSheet;
     for (std::uint32_t cell = 0; cell < boxes_.size(); ++cell) {
       if (first_[cell] == first_[cell + 1]) continue;
-      std::array<std::uint32_t, 27> near;
-      std::size_t count = 0;
-      NormalBox normals;
       const std::array<int, 3> at{static_cast<int>(cell) / (kCells * kCells),
                                   static_cast<int>(cell) / kCells % kCells, static_cast<int>(cell) % kCells};
+      std::array<Run, 9> runs;
+      std::size_t count = 0;
       for (int i = std::max(0, at[0] - 1); i <= std::min(kCells - 1, at[0] + 1); ++i) {
         for (int j = std::max(0, at[1] - 1); j <= std::min(kCells - 1, at[1] + 1); ++j) {
+          Run run{0, 0};
           for (int k = std::max(0, at[2] - 1); k <= std::min(kCells - 1, at[2] + 1); ++k) {
             const auto other = static_cast<std::uint32_t>((i * kCells + j) * kCells + k);
             if (first_[other] == first_[other + 1]) continue;
-            near[count++] = other;
-            normals.add(boxes_[other]);
+            if (boxes_[cell].least_cosine(boxes_[other]) >= kOtherSheet) continue;
+            if (run.last == 0) run.first = first_[other];
+            run.last = first_[other + 1];
           }
+          if (run.last != 0) runs[count++] = run;
         }
       }
-      if (normals.most_chord_sq() < kChordSq) continue;
-      for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-        if (has_other_sheet(sorted_[i], near.data(), count)) mark(sorted_[i]);
+      for (std::uint32_t i = first_[cell]; i < first_[cell + 1] && count > 0; ++i) {
+        if (has_close_sheet(of_, i, runs.data(), count)) mark(sorted_[i]);
       }
     }
   }
@@ -94,32 +132,10 @@ class VertexGrid {
  private:
   static constexpr int kCells = 24;
 
-  std::uint32_t cell_of(const Vec3& p) const {
-    int cell = 0;
-    for (int k = 0; k < 3; ++k) cell = cell * kCells + slab_of((p[k] - mesh_.box.lo[k]) / cell_size_, kCells);
-    return static_cast<std::uint32_t>(cell);
-  }
-
-  bool has_other_sheet(std::uint32_t v, const std::uint32_t* near, std::size_t count) const {
-    const Vec3 n = as_vector(mesh_.normal[v]);
-    for (std::size_t c = 0; c < count; ++c) {
-      if (boxes_[near[c]].least_cosine(mesh_.normal[v]) >= static_cast<float>(kOtherSheet)) continue;
-      for (std::uint32_t i = first_[near[c]]; i < first_[near[c] + 1]; ++i) {
-        const std::uint32_t w = sorted_[i];
-        if (dot(n, mesh_.normal[w]) >= kOtherSheet) continue;
-        const Vec3 between = mesh_.at[w] - mesh_.at[v];
-        const double reach = std::min(reach_, kReachInSizes * double(std::max(mesh_.size[v], mesh_.size[w])));
-        if (dot(between, between) < reach * reach) return true;
-      }
-    }
-    return false;
-  }
-
-  const BlockMesh& mesh_;
-  double reach_;
-  double cell_size_ = 0.0;
-  std::vector<std::uint32_t> first_, sorted_, cells_of_;
-  std::vector<NormalBox> boxes_;
+  std::vector<std::uint32_t> first_;   ///< by cell: of its vertices in sorted_
+  std::vector<std::uint32_t> sorted_;  ///< vertices by cell
+  VertexArrays of_;                    ///< by place in sorted_
+  std::vector<NormalBox> boxes_;       ///< by cell
 };
 
 void mark_close_sheets(BlockMesh& mesh, double reach) {
