@@ -20,10 +20,10 @@ double wanted_size(const BlockMesh& m, Index h) {
 constexpr double kLeastSineForValence = 0.34;
 
 /// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
-bool names_edge(const BlockMesh& m, Index h) {
+inline bool names_edge(const BlockMesh& m, Index h) {
   const HalfEdgeMesh& c = m.connectivity;
-  return c.has_triangle(h / 3) && c.twin(h) != HalfEdgeMesh::kNone && h < c.twin(h) &&
-         (m.is_active[c.from(h)] || m.is_active[c.to(h)]);
+  const Index twin = c.twin(h);  // none either where the triangle is gone
+  return h < twin && twin != HalfEdgeMesh::kNone && (m.is_active[c.from(h)] || m.is_active[c.to(h)]);
 }
 
 }  // namespace
@@ -213,11 +213,11 @@ std::size_t flip_edges(BlockMesh& mesh, SheetGuard& guard) {
     if (!names_edge(mesh, h)) continue;
     // Delaunay: flip where the cotangents of the opposite angles add up to less than zero.
     const Vec3 &a = mesh.at[c.from(h)], &b = mesh.at[c.to(h)];
-    double cotangents = 0.0;
-    for (const Index v : {c.opposite(h), c.opposite(c.twin(h))}) {
-      const Vec3 p = a - mesh.at[v], q = b - mesh.at[v];
-      cotangents += dot(p, q) / length(cross(p, q));
-    }
+    const Vec3 &v = mesh.at[c.opposite(h)], &w = mesh.at[c.opposite(c.twin(h))];
+    const Vec3 av = a - v, bv = b - v, aw = a - w, bw = b - w;
+    const double at_v = dot(av, bv), at_w = dot(aw, bw);
+    if (at_v >= 0.0 && at_w >= 0.0) continue;
+    const double cotangents = at_v / length(cross(av, bv)) + at_w / length(cross(aw, bw));
     if (cotangents < -1e-3) made += try_flip(mesh, guard, h);
   }
   return made;

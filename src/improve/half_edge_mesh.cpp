@@ -8,19 +8,23 @@ HalfEdgeMesh::HalfEdgeMesh(std::vector<Triangle> triangles, std::size_t vertex_c
     : twin_(3 * triangles.size(), kNone), out_(vertex_count, kNone), inner_(vertex_count, 1) {
   corners_.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) corners_.insert(corners_.end(), t.begin(), t.end());
-  std::vector<Index> first(vertex_count + 1, 0);
-  for (const Index v : corners_) ++first[v + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
-  std::vector<Index> leaving(corners_.size());
-  std::vector<Index> fill(first.begin(), first.end() - 1);
-  for (Index h = 0; h < corners_.size(); ++h) leaving[fill[corners_[h]]++] = h;
+  // Half-edges whose twin has not come yet, in lists by the smaller end.
+  std::vector<Index> waiting(vertex_count, kNone), next_waiting(corners_.size());
   for (Index h = 0; h < corners_.size(); ++h) {
     const Index u = from(h), v = to(h);
     out_[u] = h;
-    for (Index k = first[v]; k < first[v + 1]; ++k) {
-      if (to(leaving[k]) == u) twin_[h] = leaving[k];
+    Index* at = &waiting[std::min(u, v)];
+    while (*at != kNone && !(from(*at) == v && to(*at) == u)) at = &next_waiting[*at];
+    if (*at != kNone) {
+      link(h, *at);
+      *at = next_waiting[*at];
+    } else {
+      next_waiting[h] = kNone;
+      *at = h;
     }
-    if (twin_[h] == kNone) inner_[u] = inner_[v] = 0;
+  }
+  for (Index h = 0; h < corners_.size(); ++h) {
+    if (twin_[h] == kNone) inner_[from(h)] = inner_[to(h)] = 0;
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (out_[v] == kNone) inner_[v] = 0;

@@ -13,8 +13,8 @@ double wanted_size(double curvature, const SizeTargets& targets) {
   return std::max(size, kLeastSize * targets.spacing);
 }
 
-/// Each edge once; those on the boundary have one half only.
-bool is_first_half(const HalfEdgeMesh& c, Index h) { return c.twin(h) == HalfEdgeMesh::kNone || h < c.twin(h); }
+/// Each edge once; those on the boundary, whose other half is kNone, have one only. No triangle is gone yet.
+inline bool is_first_half(const HalfEdgeMesh& c, Index h) { return h < c.twin(h); }
 
 /// Lowers sizes until none grows faster than kGrowth along an edge.
 class GrowthLimit {
@@ -23,16 +23,20 @@ class GrowthLimit {
 
   void apply() {
     const HalfEdgeMesh& c = mesh_.connectivity;
+    for (const Triangle& t : mesh_.fixed) {
+      for (int i = 0; i < 3; ++i) at_boundary_.push_back({t[i], t[(i + 1) % 3]});
+    }
+    for (Index h = 0; h < c.half_edges(); ++h) {
+      if (!is_first_half(c, h)) continue;
+      const Index u = c.from(h), v = c.to(h);
+      limit(u, v);
+      if (!c.is_inner(u) || !c.is_inner(v)) at_boundary_.push_back({u, v});
+    }
     do {
       has_lowered_boundary_ = false;
-      for (const Triangle& t : mesh_.fixed) {
-        for (int i = 0; i < 3; ++i) limit(t[i], t[(i + 1) % 3]);
-      }
-      for (Index h = 0; h < c.half_edges(); ++h) {
-        if (c.has_triangle(h / 3) && is_first_half(c, h)) limit(c.from(h), c.to(h));
-      }
+      for (const auto& [u, v] : at_boundary_) limit(u, v);
       spread();
-    } while (has_lowered_boundary_);  // its edges are not at hand
+    } while (has_lowered_boundary_);
   }
 
  private:
@@ -48,6 +52,7 @@ class GrowthLimit {
   }
 
   void limit(Index u, Index v) {
+    if (mesh_.size[u] == mesh_.size[v]) return;
     if (mesh_.size[u] > mesh_.size[v]) std::swap(u, v);
     const double more = double(mesh_.size[v]) - double(mesh_.size[u]);
     const Vec3 edge = mesh_.at[v] - mesh_.at[u];
@@ -64,6 +69,7 @@ class GrowthLimit {
   }
 
   BlockMesh& mesh_;
+  std::vector<std::array<Index, 2>> at_boundary_;  ///< edges whose ends are not both inner, some of them twice
   std::vector<Index> lowered_;             ///< inner vertices whose edges are to be looked at
   std::vector<std::uint8_t> is_waiting_;   ///< whether a vertex is among them
   bool has_lowered_boundary_ = false;
@@ -79,7 +85,7 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
     mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(double(mesh.curvature[v]), targets));
   }
   for (Index h = 0; h < c.half_edges(); ++h) {
-    if (!c.has_triangle(h / 3) || !is_first_half(c, h)) continue;
+    if (!is_first_half(c, h)) continue;
     const Index u = c.from(h), v = c.to(h);
     const Vec3 turn = as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]);
     if (dot(turn, turn) <= kTurnBetweenEnds * kTurnBetweenEnds) continue;
