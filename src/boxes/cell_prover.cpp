@@ -19,6 +19,12 @@ bool proves(const LocalModel::View& view, int axis, int sign) {
   return is_excluded(view.value()) || proven_sign(view.slope(axis)) == sign;
 }
 
+/// Bit k for axis k, from the bits of directions along it.
+unsigned axes_of(unsigned directions) {
+  const unsigned either = directions | directions >> 1;
+  return (either & 1u) | (either >> 1 & 2u) | (either >> 2 & 4u);
+}
+
 /// Not a proof, only a reason to stop looking for one: by the model, the surface passes through the inner half.
 bool surface_is_surely_near(const LocalModel::View& view, const Box& box) {
   const Vec3 g = view.middle_gradient();
@@ -40,15 +46,20 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   depth_ = depth;
   ++boxes_by_depth_[0];
   const LocalModel::View view = model.over_all();
-  if (is_excluded(view.value())) return {Kind::kExcluded, 0, 0};
+  if (is_excluded(view.value())) return {Kind::kExcluded, 0, 0, 0};
 
   const Vec3 gradient = view.middle_gradient();
   std::array<int, 3> axes = {0, 1, 2};
   std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(gradient[a]) > std::abs(gradient[b]); });
+  CellCertificate whole;
   for (int axis : axes) {
-    if (const int sign = proven_sign(view.slope(axis))) return {Kind::kMonotone, axis, sign};
+    const int sign = proven_sign(view.slope(axis));
+    if (sign == 0) continue;
+    if (whole.sign == 0) whole = {Kind::kMonotone, axis, sign, 0};
+    whole.single_axes |= 1u << axis;
   }
-  if (depth_ == 0) return {Kind::kUncertified, 0, 0};
+  if (whole.sign != 0) return whole;
+  if (depth_ == 0) return {Kind::kUncertified, 0, 0, 0};
 
   // What is known of each eighth of the cell is found once for all directions: by the cell's own model, which takes
   // no sums over atoms, and where that leaves all directions open in some eighth, by a model of each.
@@ -59,11 +70,11 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     parts[child] = look_at(model.over(box), box);
     common &= parts[child].proven;
   }
-  if (common == kAllDirections) return {Kind::kExcluded, 0, 0};
+  if (common == kAllDirections) return {Kind::kExcluded, 0, 0, 0};
   if (common != 0) {
     for (const int axis : axes) {
       for (const int sign : {1, -1}) {
-        if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, axis, sign};
+        if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, axis, sign, axes_of(common)};
       }
     }
   }
@@ -86,7 +97,7 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     }
   }
   if (std::all_of(parts, parts + 8, [](const Part& part) { return part.proven == kAllDirections; })) {
-    return {Kind::kExcluded, 0, 0};
+    return {Kind::kExcluded, 0, 0, 0};
   }
   // The gradient in the middle says little of a surface that only grazes the cell: the other signs come last.
   int order[6];
@@ -103,9 +114,9 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
       if (parts[child].proven >> direction & 1) continue;
       proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], axis, sign, depth_ - 1);
     }
-    if (proven) return {Kind::kMonotone, axis, sign};
+    if (proven) return {Kind::kMonotone, axis, sign, 1u << axis};
   }
-  return {Kind::kUncertified, 0, 0};
+  return {Kind::kUncertified, 0, 0, 0};
 }
 
 CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& box) {

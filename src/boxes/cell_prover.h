@@ -18,6 +18,7 @@ struct CellCertificate {
   Kind kind = Kind::kUncertified;
   int axis = 0;
   int sign = 0;  ///< +1: phi grows along the axis
+  unsigned single_axes = 0;  ///< bit k: the same is proven of axis k; others have not all been looked at
 };
 
 /// Proves axes of cells, looking closer through sub-boxes where the cell as a whole does not show it.

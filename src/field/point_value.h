@@ -25,7 +25,8 @@ PointValue evaluate(const NearAtoms& atoms, double decay, const Vec3& point);
 /// The same with the derivatives of the gradient along an axis.
 struct LineValue {
   PointValue point;
-  Vec3 gradient_slope{};   ///< 1/A^2
+  Vec3 gradient_slope{};      ///< 1/A^2
+  Vec3 gradient_curvature{};  ///< second derivatives, 1/A^3
 };
 LineValue evaluate_along(const NearAtoms& atoms, double decay, const Vec3& point, int axis);
 

@@ -52,7 +52,7 @@ class BrickBuilder {
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {
       const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
-      const bool is_monotone = cell.sign != 0 && cell.axis == axis;
+      const bool is_monotone = found.certificate.single_axes >> axis & 1;
       const EdgeEnds ends{found.lowest, found.next[axis], is_monotone};
       cell.face[axis] = face_certificate(found, axis);
       if (finder_.is_free(found.model, axis, lo, hi, ends)) continue;
@@ -66,11 +66,9 @@ class BrickBuilder {
     brick.cells.push_back(cell);
   }
 
-  /// The low face of a cell across `axis`: single-valued along the axis of the cell if that lies in it.
+  /// The low face of a cell across `axis`: single-valued along axes of the cell that lie in it.
   FaceCertificate face_certificate(const BrickWalker::Cell& found, int axis) const {
-    if (found.certificate.kind == CellCertificate::Kind::kMonotone && found.certificate.axis != axis) {
-      return found.certificate.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
-    }
+    if (const FaceCertificate known = certificate_in_face(found.certificate.single_axes, axis)) return known;
     Box face = found.model.box();
     face.hi[axis] = face.lo[axis];
     return certify_face(found.model, axis, face);

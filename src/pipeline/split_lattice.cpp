@@ -112,7 +112,7 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
 LeafCell SplitLattice::find_cell(const CellKey& key) const {
   if (key.level == 0) {
     const SurfaceCell& cell = store_.cell(*store_.find(key.lo));
-    return {key, cell.axis, cell.sign};
+    return {key, cell.axis, cell.sign, cell.sign != 0 ? 1u << cell.axis : 0u};
   }
   const std::vector<LeafCell>& leaves = cells_[cell_of_[*find_split_around(key)]].leaves;
   return *std::find_if(leaves.begin(), leaves.end(), [&](const LeafCell& leaf) { return leaf.key == key; });
@@ -217,7 +217,8 @@ void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, Cel
     const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)), 0);
     if (own.kind == CellCertificate::Kind::kExcluded) continue;
     const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
-    branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign});
+    branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign,
+                             own.single_axes | cell.single_axes});
   }
 }
 
@@ -233,9 +234,9 @@ void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver&
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
     if (certified) {
-      branch.leaves.push_back({child, certificate.axis, certificate.sign});
+      branch.leaves.push_back({child, certificate.axis, certificate.sign, certificate.single_axes});
     } else if (folds_.contains(child)) {
-      branch.leaves.push_back({child, 0, 0});
+      branch.leaves.push_back({child, 0, 0, 0});
     } else if (child.level < kMaxLevel) {
       LocalAtoms atoms(field_);
       atoms.move_to(box, &around);
@@ -270,7 +271,7 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
           if (edge.level == 0 || edges_.contains(edge)) continue;
           const auto [number, is_new] = edges.insert(edge);
           if (is_new) is_monotone.push_back(0);
-          if (edge.level == leaf.key.level && leaf.sign != 0 && leaf.axis == axis) is_monotone[number] = 1;
+          if (edge.level == leaf.key.level && (leaf.single_axes >> axis & 1)) is_monotone[number] = 1;
         }
       }
       if (edges.size() > first_edge) tasks.push_back(task(cell, leaf, first_edge, edges.size()));
@@ -353,11 +354,8 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
           if (is_divided(axis, lo, leaf.key.level) || faces_.contains(face)) continue;
           const auto [number, is_new] = faces.insert(face);
           if (is_new) certificates.push_back(kFaceUncertified);
-          // The surface in a leaf is single-valued along its axis, and so is its section with a face that has the
-          // axis in it.
-          if (leaf.sign != 0 && leaf.axis != axis) {
-            certificates[number] = leaf.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
-          }
+          const int known = certificates[number] | certificate_in_face(leaf.single_axes, axis);
+          certificates[number] = static_cast<FaceCertificate>(known);
         }
       }
       if (faces.size() > first_face) tasks.push_back(task(cell, leaf, first_face, faces.size()));

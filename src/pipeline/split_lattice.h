@@ -26,7 +26,8 @@ void mark_folds(const FoldCellMap& folds, CellStore& store);
 struct LeafCell {
   CellKey key;
   int axis = 0;
-  int sign = 0;  ///< 0: cut along folds
+  int sign = 0;              ///< 0: cut along folds
+  unsigned single_axes = 0;  ///< as in CellCertificate
 };
 
 /// A cell that was split, and the smaller cells that are left of it.

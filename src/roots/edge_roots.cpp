@@ -33,6 +33,12 @@ double parabola_zero(double x, double f, double f1, double f2) {
   return x - 2.0 * f / (f1 + std::copysign(std::sqrt(discriminant), f1));
 }
 
+/// The same of the cubic with the third derivative f3 too, to third order.
+double cubic_zero(double x, double f, double f1, double f2, double f3) {
+  const double s = parabola_zero(x, f, f1, f2) - x;
+  return x + s - f3 * s * s * s / (6.0 * (f1 + s * f2) + 3.0 * f3 * s * s);
+}
+
 }  // namespace
 
 std::array<float, 3> outward_normal(const Vec3& g) {
@@ -67,31 +73,33 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess) {
-  // The third derivative of log phi is -8 d^3 times the third central moment of the atoms' positions, which is at
-  // most the cube of their range over 6 sqrt(3).
-  const double reach = atoms.size() > 0 ? decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
-  const double third = 0.77 * reach * reach * reach;
+  // The fourth derivative of log phi is that cumulant of y = 2 d times the atoms' positions: at most 3/16 of the fourth
+  // power of their range.
+  const double range = atoms.size() > 0 ? 2.0 * decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
+  const double fourth = 3.0 / 16.0 * range * range * range * range;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
   double width = b - a;
   Vec3 point = start;
   LineRoot root;
   for (int iteration = 0; iteration < 200; ++iteration) {
     point[axis] = x;
-    const auto [value, gradient_slope] = evaluate_along(atoms, decay, point, axis);
-    const double slope = value.gradient[axis], curvature = gradient_slope[axis];
+    const auto [value, gradient_slope, gradient_curvature] = evaluate_along(atoms, decay, point, axis);
+    const double slope = value.gradient[axis], curvature = gradient_slope[axis], third = gradient_curvature[axis];
     root = {x, value.gradient};
     ((value.value > 0.0) == inside_a ? a : b) = x;
-    double next = parabola_zero(x, value.value, slope, curvature);
+    double next = cubic_zero(x, value.value, slope, curvature, third);
     if (!(next >= a && next <= b)) next = x - value.value / slope;
     if (!(next >= a && next <= b)) next = 0.5 * (a + b);
-    const double step = std::abs(next - x);
+    const double by = next - x, step = std::abs(by);
     root.position = next;
-    for (int k = 0; k < 3; ++k) root.gradient[k] += gradient_slope[k] * (next - x);
-    // The parabola misses by the third derivative times a sixth of the step cubed, over the slope, which itself
-    // changes by no more than half over the step. The gradient, corrected to first order, is good to 1e-7 then.
-    const bool is_near = step * step * step * third < 3.0 * kRootTolerance * std::abs(slope) &&
-                         step * (std::abs(curvature) + third * step) < 0.5 * std::abs(slope) &&
-                         step * step * decay < 1e-8;
+    for (int k = 0; k < 3; ++k) root.gradient[k] += by * (gradient_slope[k] + 0.5 * by * gradient_curvature[k]);
+    // The cubic misses by the fourth derivative times step^4 / 24, over the slope, which itself changes by no more than
+    // half over the step; and the step of Newton's method to its zero, by no more than step (bend / slope)^3 / 36. The
+    // gradient, corrected to second order, is good to 1e-7 then.
+    const double bend = step * (std::abs(curvature) + step * (std::abs(third) + step * fourth)) / std::abs(slope);
+    const bool is_near = step * step * step * step * fourth < 12.0 * kRootTolerance * std::abs(slope) && bend < 0.5 &&
+                         step * bend * bend * bend < 18.0 * kRootTolerance &&
+                         step * step * step * decay * std::sqrt(decay) < 1e-8;
     if (is_near || b - a < kRootTolerance) return root;
     if (iteration % 4 == 3) {  // four steps that have not even halved the bracket are no progress
       if (b - a > 0.5 * width) next = 0.5 * (a + b);
@@ -180,15 +188,11 @@ void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
 }
 
 void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
-  // Two steps of the model's own root give a guess that mostly needs one sum over the atoms.
-  double guess = 0.5 * (s.a + s.b);
-  for (int i = 0; i < 2; ++i) {
-    const LocalModel::View view = model.over({at(guess), at(guess)});
-    const double next =
-        parabola_zero(guess, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_));
-    if (!(next > s.a && next < s.b)) break;
-    guess = next;
-  }
+  // The model's own root is a guess that mostly needs one sum over the atoms.
+  const double middle = 0.5 * (s.a + s.b);
+  const LocalModel::View view = model.over({at(middle), at(middle)});
+  const double guess =
+      parabola_zero(middle, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_));
   const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;

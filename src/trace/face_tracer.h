@@ -28,6 +28,12 @@ inline constexpr int second_axis(int axis) { return (axis + 2) % 3; }
 /// Certificate of a face from a model over a box that contains it.
 FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face);
 
+/// What follows for the faces of a cell across `axis` from CellCertificate::single_axes.
+inline FaceCertificate certificate_in_face(unsigned single_axes, int axis) {
+  return static_cast<FaceCertificate>((single_axes >> first_axis(axis) & 1) * kFaceAlongFirst |
+                                      (single_axes >> second_axis(axis) & 1) * kFaceAlongSecond);
+}
+
 /// A root on the boundary of a face.
 struct FaceRoot {
   std::uint32_t vertex = 0;  ///< its number in the mesh
