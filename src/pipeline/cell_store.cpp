@@ -32,6 +32,9 @@ class BrickBuilder {
     std::sort(brick.cells.begin(), brick.cells.end(),
               [](const SurfaceCell& a, const SurfaceCell& b) { return a.local < b.local; });
     for (const SurfaceCell& cell : brick.cells) brick.occupied[cell.local / 64] |= 1ull << (cell.local % 64);
+    for (std::size_t w = 1; w < brick.rank.size(); ++w) {
+      brick.rank[w] = static_cast<std::uint16_t>(brick.rank[w - 1] + std::popcount(brick.occupied[w - 1]));
+    }
     for (std::size_t i = 0; i < brick.boxes_by_level.size(); ++i) {
       brick.boxes_by_level[i] = walker_.boxes_by_level()[i] - brick.boxes_by_level[i];
     }
@@ -137,12 +140,12 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
 }
 
 std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32_t hint) const {
-  constexpr std::int64_t kBrickFine = kBrickCells * kFinePerCell;
+  static_assert(kBrickCells == 8);
   BrickIndex index;
   unsigned local = 0;
   for (int k = 2; k >= 0; --k) {
-    index[k] = lo[k] >= 0 ? lo[k] / kBrickFine : -((-lo[k] + kBrickFine - 1) / kBrickFine);
-    local = local * kBrickCells + static_cast<unsigned>((lo[k] - index[k] * kBrickFine) / kFinePerCell);
+    index[k] = lo[k] >> (kMaxLevel + 3);
+    local = local * kBrickCells + static_cast<unsigned>(lo[k] >> kMaxLevel & (kBrickCells - 1));
   }
   std::uint32_t number = hint;
   if (bricks_.empty()) return std::nullopt;
@@ -154,9 +157,8 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
   const Brick& brick = bricks_[number];
   const std::uint64_t bit = 1ull << (local % 64);
   if (!(brick.occupied[local / 64] & bit)) return std::nullopt;
-  unsigned rank = static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)));
-  for (unsigned w = 0; w < local / 64; ++w) rank += static_cast<unsigned>(std::popcount(brick.occupied[w]));
-  return Place{number, rank};
+  return Place{number, brick.rank[local / 64] +
+                           static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)))};
 }
 
 std::optional<std::uint32_t> CellStore::find_brick(const BrickIndex& index) const {

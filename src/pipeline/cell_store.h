@@ -37,6 +37,7 @@ struct VertexRange {
 struct Brick {
   BrickIndex index{};
   std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
+  std::array<std::uint16_t, 8> rank{};       ///< cells in the words of `occupied` before
   std::vector<SurfaceCell> cells;            ///< by `local`
   std::vector<Link> links;
   VertexRange face_vertices;                 ///< vertices inside faces
