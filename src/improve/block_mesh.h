@@ -110,6 +110,17 @@ inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t t) {
   return triangle_quality(m, v[0], v[1], v[2]);
 }
 
+/// Whether a triangle has no angle with a smaller sine, and is turned by no more from the field; without roots.
+inline bool is_at_least(const BlockMesh& m, std::uint32_t t, const TriangleQuality& limit) {
+  const Triangle v = m.connectivity.triangle(t);
+  const Vec3 a = m.at[v[1]] - m.at[v[0]], b = m.at[v[2]] - m.at[v[0]], c = m.at[v[2]] - m.at[v[1]];
+  const Vec3 n = cross(a, b);
+  const double nn = dot(n, n), aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+  const double least = std::min({dot(n, m.normal[v[0]]), dot(n, m.normal[v[1]]), dot(n, m.normal[v[2]])});
+  return nn > 0.0 && nn * std::min({aa, bb, cc}) >= limit.min_sine * limit.min_sine * aa * bb * cc && least > 0.0 &&
+         least * least >= limit.normal_cosine * limit.normal_cosine * nn;
+}
+
 /// Of the triangles round an inner vertex.
 inline TriangleQuality star_quality(const BlockMesh& mesh, std::uint32_t vertex) {
   TriangleQuality quality = kPerfect;

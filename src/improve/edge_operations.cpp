@@ -51,21 +51,25 @@ bool try_flip(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h) {
 
 bool try_collapse(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, double longest) {
   HalfEdgeMesh& c = mesh.connectivity;
-  if (!c.can_collapse(h)) return false;
   const Index u = c.from(h), v = c.to(h), s = h / 3, t = c.twin(h) / 3;
-  TriangleQuality before = kPerfect, after = kPerfect;
+  if (!c.is_inner(u)) return false;
   double longest_sq = 0.0;
+  c.visit_star(u, [&](Index k) {
+    if (k / 3 == t) return;  // an edge that is there already
+    const Vec3 e = mesh.at[c.to(k)] - mesh.at[v];
+    longest_sq = std::max(longest_sq, dot(e, e));
+  });
+  if (longest_sq > longest * longest || !c.can_collapse(h)) return false;
+  TriangleQuality before = kPerfect, after = kPerfect;
   bool guarded = false;
   c.visit_star(u, [&](Index k) {
     before = worse(before, triangle_quality(mesh, k / 3));
     if (k / 3 == s || k / 3 == t) return;
     const Index a = c.to(k), b = c.opposite(k);
     after = worse(after, triangle_quality(mesh, v, a, b));
-    const Vec3 e = mesh.at[a] - mesh.at[v];
-    longest_sq = std::max(longest_sq, dot(e, e));
     guarded = guarded || SheetGuard::is_guarded(mesh, {v, a, b});
   });
-  if (!turn_is_allowed(before, after) || longest_sq > longest * longest) return false;
+  if (!turn_is_allowed(before, after)) return false;
   if (after.min_sine < std::min(0.2, before.min_sine)) return false;
   if (guarded) {
     const auto ignored = [&](Index other) {
@@ -125,9 +129,10 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
   const HalfEdgeMesh& c = mesh.connectivity;
   const Place old{mesh.at[v], mesh.normal[v]};
   mesh.put(v, place);
-  const TriangleQuality after = star_quality(mesh, v);
-  bool allowed = after.min_sine >= least_sine && after.normal_cosine >= kTurnLimit;
+  bool allowed = true;
+  c.visit_star(v, [&](Index h) { allowed = allowed && is_at_least(mesh, h / 3, {least_sine, kTurnLimit}); });
   if (!allowed) {  // as good as before is good enough
+    const TriangleQuality after = star_quality(mesh, v);
     mesh.put(v, old);
     const TriangleQuality before = star_quality(mesh, v);
     allowed = after.min_sine >= std::min(least_sine, before.min_sine) && turn_is_allowed(before, after);
@@ -182,7 +187,8 @@ std::size_t even_out_valences(BlockMesh& mesh, SheetGuard& guard) {
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<int> valence(c.vertices(), 0);
   for (Index h = 0; h < c.half_edges(); ++h) {
-    if (c.has_triangle(h / 3)) ++valence[c.from(h)];
+    const Index v = c.from(h);  // none where the triangle is gone
+    if (v != HalfEdgeMesh::kNone) ++valence[v];
   }
   const auto excess = [](int v) { return (v - 6) * (v - 6); };
   std::size_t made = 0;

@@ -85,9 +85,19 @@ bool HalfEdgeMesh::can_collapse(Index h) const {
   const Index u = from(h), v = to(h), c = opposite(h), d = opposite(twin_[h]);
   if (!inner_[u] || !inner_[v] || !inner_[c] || !inner_[d]) return false;
   if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
+  std::array<Index, 16> round_v;
+  std::size_t count = 0;
+  visit_star(v, [&](Index g) {
+    if (count < round_v.size()) round_v[count] = to(g);
+    ++count;
+  });
+  const bool all_here = count <= round_v.size();
   int common = 0;
   visit_star(u, [&](Index g) {
-    if (to(g) != v && are_neighbours(v, to(g))) ++common;
+    const Index w = to(g);
+    if (w == v) return;
+    common += all_here ? std::find(round_v.begin(), round_v.begin() + count, w) != round_v.begin() + count
+                       : are_neighbours(v, w);
   });
   return common == 2;
 }

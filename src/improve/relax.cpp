@@ -14,10 +14,9 @@ Vec3 ideal_place(const BlockMesh& mesh, Index v) {
   c.visit_star(v, [&](Index h) {
     const Vec3 a = mesh.at[c.to(h)], b = mesh.at[c.opposite(h)];
     const Vec3 e = b - a, u = p - a;
-    const double ee = dot(e, e);
-    const Vec3 across = u - dot(u, e) / ee * e;  // from the side to p, across it
-    const Vec3 ideal = 0.5 * (a + b) + 0.8660254 * std::sqrt(ee) / length(across) * across;
-    const double weight = 1.0 / ee;
+    const double ee = dot(e, e), weight = 1.0 / ee;
+    const Vec3 across = u - dot(u, e) * weight * e;  // from the side to p, across it
+    const Vec3 ideal = 0.5 * (a + b) + 0.8660254 * std::sqrt(ee / dot(across, across)) * across;
     sum = sum + weight * (ideal - p);
     total += weight;
   });
