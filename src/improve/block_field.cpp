@@ -18,6 +18,9 @@ constexpr double kRoughCut = 16.0, kExactCut = 24.0;
 /// Exponents of this size are good to some 1e-6 in single precision.
 constexpr double kLargestRoughWeight = 32.0;
 
+/// Where log phi has a smaller slope (1/A), near critical points, single precision moves the surface by too much.
+constexpr double kLeastRoughSlope = 0.03;
+
 /// Rough atoms are so many at a time; those that fill up have no weight.
 constexpr std::size_t kRoughLanes = 16;
 constexpr float kNoWeight = -1e30f;
@@ -176,32 +179,36 @@ PointValue BlockField::evaluate_roughly(const Vec3& point) {
 }
 
 FieldJet BlockField::jet(const Vec3& point) {
-  if (!is_rough_usable_) {
-    const NearAtoms& near = atoms_at(point);
-    return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(), decay_,
-                              point[0], point[1], point[2]), decay_);
+  if (is_rough_usable_) {
+    const RoughAtoms& near = rough_atoms_at(point);
+    const Vec3 p = point - near.origin;
+    const FieldJet jet = jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.x.size(),
+                                            static_cast<float>(decay_), static_cast<float>(p[0]),
+                                            static_cast<float>(p[1]), static_cast<float>(p[2])), decay_);
+    if (dot(jet.gradient, jet.gradient) > kLeastRoughSlope * kLeastRoughSlope) return jet;
   }
-  const RoughAtoms& near = rough_atoms_at(point);
-  const Vec3 p = point - near.origin;
-  return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.x.size(),
-                            static_cast<float>(decay_), static_cast<float>(p[0]), static_cast<float>(p[1]),
-                            static_cast<float>(p[2])), decay_);
+  const NearAtoms& near = atoms_at(point);
+  return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(), decay_,
+                            point[0], point[1], point[2]), decay_);
 }
 
 std::optional<Place> BlockField::project(const Vec3& point, double farthest, Accuracy accuracy) {
   // Newton's method squares the error: a step s leaves about s^2 k / 2 where the curvature is k. The first of these
-  // (A) leaves less than a rounding of the result; the second grows with the triangles, since those are small where
-  // k is large.
-  constexpr double kGoodStep = 1e-5, kRoughStep = 1e-3, kRoughPart = 0.004;
+  // (A) leaves less than a rounding of the result; where k is large triangles are small, and so are steps.
+  constexpr double kGoodStep = 1e-5, kGoodPart = 1e-3, kRoughStep = 1e-3, kRoughPart = 0.004;
   constexpr int kRoughIterations = 5;  // where these do not get there, single precision is the reason
-  const bool may_be_rough = accuracy == Accuracy::kRough && is_rough_usable_;
-  const double rough_step = std::clamp(kRoughPart * farthest, kGoodStep, kRoughStep);
+  bool is_rough = accuracy == Accuracy::kRough && is_rough_usable_;
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
-    const bool is_rough = may_be_rough && iteration < kRoughIterations;
-    const double good_step = is_rough ? rough_step : kGoodStep;
+    is_rough = is_rough && iteration < kRoughIterations;
     const PointValue v = is_rough ? evaluate_roughly(p) : evaluate(atoms_at(p), decay_, p);
     const double slope = length(v.gradient);
+    if (is_rough && !(slope > kLeastRoughSlope)) {
+      is_rough = false;
+      continue;
+    }
+    const double good_step = is_rough ? std::min(kRoughStep, kRoughPart * farthest)
+                                      : std::min(kGoodStep, kGoodPart * farthest);
     if (!(slope > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.5 * farthest, 0.5 * farthest);
     p = p + step / slope * v.gradient;
@@ -213,9 +220,9 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
   return std::nullopt;
 }
 
-double largest_curvature(const FieldJet& jet) {
+Curvatures principal_curvatures(const FieldJet& jet) {
   // In an orthonormal frame (t1, t2) of the tangent plane the shape operator is the Hessian over the slope; its
-  // larger eigenvalue in absolute value is |H| + sqrt(H^2 - K) of the mean and Gaussian curvature.
+  // eigenvalues in absolute value are |H| + sqrt(H^2 - K) and ||H| - sqrt(H^2 - K)| of the mean and Gaussian curvature.
   const Vec3& g = jet.gradient;
   const double slope = length(g);
   const Vec3 n = 1.0 / slope * g;
@@ -230,8 +237,8 @@ double largest_curvature(const FieldJet& jet) {
   };
   const Vec3 h1 = times(t1), h2 = times(t2);
   const double a = dot(t1, h1) / slope, b = dot(t1, h2) / slope, c = dot(t2, h2) / slope;
-  const double mean = 0.5 * (a + c);
-  return std::abs(mean) + std::sqrt(0.25 * (a - c) * (a - c) + b * b);
+  const double mean = 0.5 * std::abs(a + c), apart = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
+  return {mean + apart, std::abs(mean - apart)};
 }
 
 }  // namespace gaussmesh

@@ -74,7 +74,13 @@ class BlockField {
   std::vector<RoughAtoms> rough_lists_;  ///< the same
 };
 
-/// Principal curvature (1/A) of the level set through the jet's point, the larger one in absolute value.
-double largest_curvature(const FieldJet& jet);
+/// Principal curvatures of a surface (1/A), in absolute value.
+struct Curvatures {
+  double larger = 0.0;
+  double smaller = 0.0;
+};
+
+/// Of the level set through the jet's point.
+Curvatures principal_curvatures(const FieldJet& jet);
 
 }  // namespace gaussmesh

@@ -1,6 +1,7 @@
 #include "improve/edge_operations.h"
 
 #include <optional>
+#include <span>
 
 namespace gaussmesh {
 namespace {
@@ -19,11 +20,32 @@ double wanted_size(const BlockMesh& m, Index h) {
 /// A flip for the valences' sake may leave angles down to 20 degrees; relaxation opens them again.
 constexpr double kLeastSineForValence = 0.34;
 
+/// Where triangles lead over a rim of the surface, from one side to the other, splits lead out of that; but the first parts
+/// may be turned by more than the whole was. Then they are well-shaped, and kept from their neighbours by exact signs.
+constexpr double kTurnLimitOnRims = 0.1, kLeastSineOnRims = 0.2;
+
 /// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
 inline bool names_edge(const BlockMesh& m, Index h) {
   const HalfEdgeMesh& c = m.connectivity;
   const Index twin = c.twin(h);  // none either where the triangle is gone
   return h < twin && twin != HalfEdgeMesh::kNone && (m.is_active[c.from(h)] || m.is_active[c.to(h)]);
+}
+
+/// Whether any of the four parts of triangles s and t, split in their common edge, may meet a neighbour of theirs.
+bool meets_stars(const BlockMesh& mesh, Index s, Index t, std::span<const Triangle> parts) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  bool meets = false;
+  for (const Index old : {s, t}) {
+    for (const Index v : c.triangle(old)) {
+      if (!c.is_inner(v)) return true;  // its neighbours are not all here
+      c.visit_star(v, [&](Index h) {
+        const Index other = h / 3;
+        if (other == s || other == t) return;
+        for (const Triangle& part : parts) meets = meets || SheetGuard::pair_may_meet(mesh, part, c.triangle(other));
+      });
+    }
+  }
+  return meets;
 }
 
 }  // namespace
@@ -106,7 +128,9 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   const TriangleQuality before = worse(triangle_quality(mesh, s), triangle_quality(mesh, t));
   TriangleQuality after = kPerfect;
   for (const Triangle& p : parts) after = worse(after, triangle_quality(mesh, p[0], p[1], p[2]));
-  bool allowed = turn_is_allowed(before, after);
+  bool allowed = turn_is_allowed(before, after) || (after.min_sine >= kLeastSineOnRims &&
+                                                    after.normal_cosine >= kTurnLimitOnRims &&
+                                                    !meets_stars(mesh, s, t, parts));
   const bool guarded = mesh.is_guarded[m];
   if (allowed && guarded) {
     const auto ignored = [&](Index other) { return other == s || other == t; };

@@ -20,6 +20,9 @@ class SheetGuard {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
   }
 
+  /// Whether two triangles may meet beyond the corners that they share; errs on the side of true, as below.
+  static bool pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t);
+
   /// Whether `t`, a triangle that is to be, may meet one of the block or from outside; triangles of the block of
   /// which `ignored` says so do not count. Exact in general position; errs on the side of true where points are
   /// coplanar.
@@ -67,7 +70,6 @@ class SheetGuard {
     Normal normal;  ///< mean of the field's at the corners, not of unit length
   };
 
-  static bool pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t);
   void enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle);
 
   static Normal mean_normal(const BlockMesh& mesh, const Triangle& t) {

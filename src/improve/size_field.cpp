@@ -5,12 +5,22 @@ namespace {
 
 using Index = HalfEdgeMesh::Index;
 
+/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves as much in both directions.
+double curvature_that_counts(const Curvatures& c, const SizeTargets& targets) {
+  return std::min(c.larger, std::max(c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));
+}
+
+/// Lower limit of wanted sizes where such a curvature was found.
+double least_size(double curvature, const SizeTargets& targets) {
+  return std::max(std::min(kLeastSize * targets.spacing, kTurnPerEdge / curvature), kLeastSizeOfAll * targets.spacing);
+}
+
 double wanted_size(double curvature, const SizeTargets& targets) {
   double size = std::min(kTurnPerEdge / curvature, targets.largest);
   // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
   // surface; edges may be up to half as long again as wanted.
   if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
-  return std::max(size, kLeastSize * targets.spacing);
+  return std::max(size, least_size(curvature, targets));
 }
 
 /// Each edge once; those on the boundary, whose other half is kNone, have one only. No triangle is gone yet.
@@ -81,7 +91,10 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   const HalfEdgeMesh& c = mesh.connectivity;
   for (Index v = 0; v < c.vertices(); ++v) {
     if (!mesh.is_active[v] || !c.has_vertex(v)) continue;
-    if (mesh.curvature[v] < 0.0f) mesh.curvature[v] = static_cast<float>(largest_curvature(field.jet(mesh.at[v])));
+    if (mesh.curvature[v] < 0.0f) {
+      const Curvatures curvatures = principal_curvatures(field.jet(mesh.at[v]));
+      mesh.curvature[v] = static_cast<float>(curvature_that_counts(curvatures, targets));
+    }
     mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(double(mesh.curvature[v]), targets));
   }
   for (Index h = 0; h < c.half_edges(); ++h) {
@@ -89,8 +102,9 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
     const Index u = c.from(h), v = c.to(h);
     const Vec3 turn = as_vector(mesh.normal[v]) - as_vector(mesh.normal[u]);
     if (dot(turn, turn) <= kTurnBetweenEnds * kTurnBetweenEnds) continue;
-    const double most =
-        std::max(kTurnBetweenEnds / length(turn) * length(mesh.at[v] - mesh.at[u]), kLeastSize * targets.spacing);
+    const auto curvature = double(std::max(mesh.curvature[u], mesh.curvature[v]));  // none known outside the block
+    const double most = std::max(kTurnBetweenEnds / length(turn) * length(mesh.at[v] - mesh.at[u]),
+                                 least_size(std::max(curvature, 0.0), targets));
     mesh.size[u] = std::min(mesh.size[u], static_cast<float>(most));
     mesh.size[v] = std::min(mesh.size[v], static_cast<float>(most));
   }

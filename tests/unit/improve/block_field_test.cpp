@@ -95,7 +95,9 @@ TEST_CASE("the surface of one atom is a sphere: its curvature, and the way to it
       CHECK(double(place->normal[k]) == Approx(out[k] / radius).margin(1e-6));
       CHECK(place->at[k] == to_angstrom(std::llround(place->at[k] * kUnitsPerAngstrom)));
     }
-    CHECK(largest_curvature(block.jet(place->at)) == Approx(1.0 / radius).epsilon(1e-6));
+    const Curvatures curvatures = principal_curvatures(block.jet(place->at));
+    CHECK(curvatures.larger == Approx(1.0 / radius).epsilon(1e-5));
+    CHECK(curvatures.smaller == Approx(1.0 / radius).epsilon(1e-5));
   }
   CHECK_FALSE(block.project({3.5, -0.25, 1.0}, 0.1));  // the surface is farther than allowed
 }
@@ -107,5 +109,5 @@ TEST_CASE("two spheres that touch: the neck curves more than either") {
   const auto pole = block.project({-3.6, 0, 0}, 1.0);
   REQUIRE(waist);
   REQUIRE(pole);
-  CHECK(largest_curvature(block.jet(waist->at)) > largest_curvature(block.jet(pole->at)));
+  CHECK(principal_curvatures(block.jet(waist->at)).larger > principal_curvatures(block.jet(pole->at)).larger);
 }
