@@ -220,6 +220,24 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
   return std::nullopt;
 }
 
+std::optional<Place> BlockField::project_along(const Vec3& direction, const Vec3& point, double farthest) {
+  constexpr double kGoodStep = 1e-8, kGoodPart = 1e-5;
+  const Vec3 unit = 1.0 / length(direction) * direction;
+  double at = 0.0;
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    const Vec3 p = point + at * unit;
+    const PointValue v = evaluate(atoms_at(p), decay_, p);
+    const double slope = dot(v.gradient, unit);
+    if (!(std::abs(slope) > 0.0 && std::isfinite(v.value))) return std::nullopt;
+    const double step = std::clamp(-v.value / slope, -0.25 * farthest, 0.25 * farthest);
+    at += step;
+    if (!(std::abs(at) <= farthest)) return std::nullopt;
+    if (std::abs(step) > std::min(kGoodStep, kGoodPart * farthest)) continue;
+    return Place{round_to_units(point + at * unit), outward_normal(v.gradient)};
+  }
+  return std::nullopt;
+}
+
 Curvatures principal_curvatures(const FieldJet& jet) {
   // In an orthonormal frame (t1, t2) of the tangent plane the shape operator is the Hessian over the slope; its
   // eigenvalues in absolute value are |H| + sqrt(H^2 - K) and ||H| - sqrt(H^2 - K)| of the mean and Gaussian curvature.

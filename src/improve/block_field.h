@@ -52,6 +52,10 @@ class BlockField {
   /// Cost: one or two sums over the atoms nearby.
   std::optional<Place> project(const Vec3& point, double farthest, Accuracy accuracy = Accuracy::kExact);
 
+  /// The same on the line through the point, which need not be steep: exact, and nothing where the line does not lead to the
+  /// surface on one way.
+  std::optional<Place> project_along(const Vec3& direction, const Vec3& point, double farthest);
+
   const Box& box() const { return box_; }
 
  private:

@@ -24,6 +24,12 @@ constexpr double kLeastSineForValence = 0.34;
 /// may be turned by more than the whole was. Then they are well-shaped, and kept from their neighbours by exact signs.
 constexpr double kTurnLimitOnRims = 0.1, kLeastSineOnRims = 0.2;
 
+/// Normal of a triangle, as long as its doubled area.
+Vec3 area_normal(const BlockMesh& m, Index t) {
+  const Triangle v = m.connectivity.triangle(t);
+  return cross(m.at[v[1]] - m.at[v[0]], m.at[v[2]] - m.at[v[0]]);
+}
+
 /// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
 inline bool names_edge(const BlockMesh& m, Index h) {
   const HalfEdgeMesh& c = m.connectivity;
@@ -186,9 +192,17 @@ std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& fie
     if (!names_edge(mesh, h)) continue;
     const double most = factor * wanted_size(mesh, h), length_sq = edge_length_sq(mesh, h);
     if (length_sq <= most * most) continue;
-    const std::optional<Place> middle =
-        field.project(0.5 * (mesh.at[c.from(h)] + mesh.at[c.to(h)]), 0.5 * std::sqrt(length_sq), accuracy);
-    if (middle) made += try_split(mesh, guard, h, *middle);
+    const Vec3 middle = 0.5 * (mesh.at[c.from(h)] + mesh.at[c.to(h)]);
+    const double farthest = 0.5 * std::sqrt(length_sq);
+    const std::optional<Place> nearest = field.project(middle, farthest, accuracy);
+    bool is_split = nearest && try_split(mesh, guard, h, *nearest);
+    if (!is_split) {
+      // Under a narrow ridge the nearest place may be on its other side: then the triangles' normal leads to theirs.
+      const Vec3 out = area_normal(mesh, h / 3) + area_normal(mesh, c.twin(h) / 3);
+      const std::optional<Place> above = field.project_along(out, middle, farthest);
+      is_split = above && try_split(mesh, guard, h, *above);
+    }
+    made += is_split;
   }
   return made;
 }
