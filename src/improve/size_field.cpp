@@ -5,9 +5,11 @@ namespace {
 
 using Index = HalfEdgeMesh::Index;
 
-/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves as much in both directions.
+/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves in both directions. A neck that
+/// is about to pinch off may be flat.
 double curvature_that_counts(const Curvatures& c, const SizeTargets& targets) {
-  return std::min(c.larger, std::max(c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));
+  constexpr double kFlattest = 10.0;
+  return std::min(c.larger, std::max(kFlattest * c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));
 }
 
 /// Lower limit of wanted sizes where such a curvature was found.

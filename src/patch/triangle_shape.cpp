@@ -12,12 +12,26 @@ Vec3 difference(const CoordPoint& p, const CoordPoint& q) {
 
 double dot(const Vec3& u, const Vec3& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 
+Vec3 cross(const Vec3& u, const Vec3& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// Of vectors of any length.
+double cosine_between(const Vec3& n, const std::array<float, 3>& direction) {
+  const Vec3 d{double(direction[0]), double(direction[1]), double(direction[2])};
+  return dot(n, d) / (std::sqrt(dot(n, n) * dot(d, d)) + 1e-300);
+}
+
+Vec3 area_normal(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  return cross(difference(q.position, p.position), difference(r.position, p.position));
+}
+
 /// A triangle's sides, normal and the field's normal at its corners.
 struct Geometry {
   Geometry(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
     const Vec3 u = difference(q.position, p.position), v = difference(r.position, p.position);
     const Vec3 w = difference(r.position, q.position);
-    const Vec3 n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Vec3 n = cross(u, v);
     Vec3 field{};
     for (int k = 0; k < 3; ++k) field[k] = double(p.normal[k]) + double(q.normal[k]) + double(r.normal[k]);
     doubled_area = std::sqrt(dot(n, n));
@@ -33,12 +47,12 @@ struct Geometry {
 
 double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
                      const std::array<float, 3>& direction) {
-  return Geometry({p.position, direction, 0}, {q.position, direction, 0}, {r.position, direction, 0}).cosine;
+  return cosine_between(area_normal(p, q, r), direction);
 }
 
 double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
-  return std::min({normal_cosine(p, q, r, p.normal), normal_cosine(p, q, r, q.normal),
-                   normal_cosine(p, q, r, r.normal)});
+  const Vec3 n = area_normal(p, q, r);
+  return std::min({cosine_between(n, p.normal), cosine_between(n, q.normal), cosine_between(n, r.normal)});
 }
 
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
