@@ -55,6 +55,14 @@ double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const S
   return std::min({cosine_between(n, p.normal), cosine_between(n, q.normal), cosine_between(n, r.normal)});
 }
 
+SideShape side_shape(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  const Vec3 side = difference(q.position, p.position), n = area_normal(p, q, r);
+  double turn = 0.0;
+  for (int k = 0; k < 3; ++k) turn += side[k] * (double(q.normal[k]) - double(p.normal[k]));
+  const double length = std::sqrt(dot(side, side));
+  return {length, std::sqrt(dot(n, n)) / length, std::abs(turn) / 8.0};
+}
+
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
   const Geometry triangle(p, q, r);
   if (triangle.doubled_area == 0.0) return 10.0 * kTurnedTriangle;

@@ -157,14 +157,26 @@ class CellPatcher {
     return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : vertices_[vertex];
   }
 
-  /// Whether a triangle is turned against the field at its centroid, or has corners that face too many ways: the cell is
-  /// too coarse for the surface.
+  /// Whether the surface rises high over a long side of a thin triangle, as over the ends of a ridge: however the triangle is
+  /// split, its parts are turned far from the field.
+  static bool is_bridge(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, double cell) {
+    constexpr double kLong = 0.6, kThin = 0.06, kHigh = 0.07;  // cells
+    const SideShape side = side_shape(p, q, r);
+    return side.length > kLong * cell && side.height < kThin * cell && side.bow > kHigh * cell;
+  }
+
+  /// Whether a triangle is turned against the field at its centroid, or, where that is asked for, has corners that face too
+  /// many ways or bridges a ridge: the cell is too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
     constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
+    const auto cell = static_cast<double>(lattice_.step * fine_size(key.level));
     bool atoms_loaded = false;
     for (const Triangle& t : patch.triangles) {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
-      if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
+      if (least_corner_cosine_ > -1.0) {
+        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
+        if (is_bridge(p, q, r, cell) || is_bridge(q, r, p, cell) || is_bridge(r, p, q, cell)) return true;
+      }
       if (least_normal_cosine(p, q, r) > kSuspect) continue;
       if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
       atoms_loaded = true;

@@ -30,8 +30,7 @@ struct PatchedCells {
 /// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
 class CellTriangulator {
  public:
-  /// @param least_corner_cosine  cells fail also where the normals at the corners of a triangle differ by more than
-  ///                             this: they are too coarse for the surface (-1: never)
+  /// @param least_corner_cosine  as in TraceDemands: cells that are too coarse for the surface fail also
   CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store,
                    double least_corner_cosine)
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
