@@ -48,11 +48,9 @@ constexpr Sweep kSweeps[] = {
     {3, false, false, false}, {3, false, false, false}, {3, true, false, false}, {2, true, true, false}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follows them until all vertices are settled, or two sweeps have found nothing to do: what the first did not see at its
-/// planes the second does.
+/// Follows them until all vertices are settled: one that lies at planes of each axis in three sweeps is free in the fourth.
 constexpr Sweep kExtraSweep{1, true, false, true};
 constexpr int kMostExtraSweeps = 12;
-constexpr int kIdleSweeps = 2;
 
 /// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
 constexpr double effort(const Sweep& sweep) {
@@ -86,8 +84,10 @@ double mean_edge(const WholeMesh& mesh) {
 /// settled. @return whether any are active
 bool activate_bad_places(BlockMesh& mesh) {
   constexpr int kRings = 4;
+  constexpr int kRingsThatChange = 2;  // triangles change that far round active vertices: a collapse takes a neighbour away
   const HalfEdgeMesh& c = mesh.connectivity;
   std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
+  std::vector<std::uint8_t> may_change(mesh.at.size(), 0);
   std::vector<std::uint32_t> front = refine_sharp_edges(mesh, kSmallerAtLast);
   const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
   for (std::uint32_t t = 0; t < c.triangles(); ++t) {
@@ -95,39 +95,35 @@ bool activate_bad_places(BlockMesh& mesh) {
     for (const std::uint32_t v : c.triangle(t)) front.push_back(v);
   }
   const bool any = !front.empty();
-  for (const std::uint32_t v : front) mesh.is_active[v] = 1;
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (const std::uint32_t v : front) mesh.is_active[v] = may_change[v] = 1;
+  for (int ring = 0; ring < kRings + kRingsThatChange; ++ring) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t v : front) {
       if (!c.is_inner(v)) continue;
       c.visit_star(v, [&](std::uint32_t h) {
-        if (mesh.is_active[c.to(h)]) return;
-        mesh.is_active[c.to(h)] = 1;
+        if (may_change[c.to(h)]) return;
+        may_change[c.to(h)] = 1;
+        if (ring < kRings) mesh.is_active[c.to(h)] = 1;
         next.push_back(c.to(h));
       });
     }
     front = std::move(next);
   }
   for (std::uint32_t v = 0; v < c.vertices(); ++v) {
-    if (!c.is_inner(v)) continue;
-    bool changes = mesh.is_active[v] != 0, all_inner = true;  // edges that end on the boundary have not been looked at
-    c.visit_star(v, [&](std::uint32_t h) {
-      changes = changes || mesh.is_active[c.to(h)];
-      all_inner = all_inner && c.is_inner(c.to(h));
-    });
-    if (changes) {
+    if (may_change[v]) {
       mesh.is_settled[v] = 0;
-    } else if (all_inner) {
-      mesh.is_settled[v] = 1;
+    } else if (c.is_inner(v)) {
+      bool all_inner = true;  // edges that end on the boundary have not been looked at
+      c.visit_star(v, [&](std::uint32_t h) { all_inner = all_inner && c.is_inner(c.to(h)); });
+      if (all_inner) mesh.is_settled[v] = 1;
     }
   }
   return any;
 }
 
-/// @return whether there was something to do
-bool improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
+void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
                    const Sweep& sweep) {
-  if (sweep.is_extra && !activate_bad_places(mesh)) return false;
+  if (sweep.is_extra && !activate_bad_places(mesh)) return;
   const Accuracy accuracy = sweep.is_extra ? Accuracy::kExact : Accuracy::kRough;
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
@@ -144,7 +140,6 @@ bool improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   if (sweep.settles) settle_vertices(mesh, field);
   if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
-  return true;
 }
 
 SurfaceMesh finish(WholeMesh mesh) {
@@ -171,7 +166,6 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   double all = kMostExtraSweeps * effort(kExtraSweep), done = 0.0;
   for (const Sweep& sweep : kSweeps) all += effort(sweep);
   const auto run = [&](const Sweep& sweep) {
-    std::atomic<bool> is_idle = true;
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
     MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
     std::atomic<int> blocks_done = 0;
@@ -180,7 +174,7 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
         blocks.keep(b);
       } else {
         BlockMesh block = blocks.extract(b);
-        if (improve_block(block, field, now, guarding, sweep)) is_idle = false;
+        improve_block(block, field, now, guarding, sweep);
         blocks.store(b, std::move(block));
       }
       if (on_progress)
@@ -188,7 +182,6 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     });
     mesh = std::move(blocks).join(threads);
     done += effort(sweep);
-    return is_idle.load();
   };
   for (const Sweep& sweep : kSweeps) {
     run(sweep);
@@ -198,10 +191,9 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
-  int idle = 0;
   const auto is_settled = [](std::uint8_t settled) { return settled != 0; };
-  for (int i = 0; i < kMostExtraSweeps && idle < kIdleSweeps; ++i) {
-    idle = run(kExtraSweep) ? idle + 1 : 0;
+  for (int i = 0; i < kMostExtraSweeps; ++i) {
+    run(kExtraSweep);
     if (std::all_of(mesh.is_settled.begin(), mesh.is_settled.end(), is_settled)) break;
   }
   if (on_progress) on_progress(1.0);
