@@ -59,8 +59,7 @@ SideShape side_shape(const SurfacePoint& p, const SurfacePoint& q, const Surface
   const Vec3 side = difference(q.position, p.position), n = area_normal(p, q, r);
   double turn = 0.0;
   for (int k = 0; k < 3; ++k) turn += side[k] * (double(q.normal[k]) - double(p.normal[k]));
-  const double length = std::sqrt(dot(side, side));
-  return {length, std::sqrt(dot(n, n)) / length, std::abs(turn) / 8.0};
+  return {std::sqrt(dot(n, n) / dot(side, side)), std::abs(turn) / 8.0};
 }
 
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {

@@ -20,7 +20,6 @@ double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const S
 
 /// A side of a triangle (units of coordinates).
 struct SideShape {
-  double length = 0.0;
   double height = 0.0;  ///< of the triangle over it
   double bow = 0.0;     ///< of the surface over it: an arc that turns by a over a chord e rises by e a / 8
 };

@@ -161,8 +161,17 @@ class CellPatcher {
   /// split, its parts are turned far from the field.
   static bool is_bridge(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, double cell) {
     constexpr double kLong = 0.6, kThin = 0.06, kHigh = 0.07;  // cells
-    const SideShape side = side_shape(p, q, r);
-    return side.length > kLong * cell && side.height < kThin * cell && side.bow > kHigh * cell;
+    const auto bridges = [&](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
+      double length_sq = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const auto along = static_cast<double>(b.position[k] - a.position[k]);
+        length_sq += along * along;
+      }
+      if (length_sq <= kLong * cell * kLong * cell) return false;
+      const SideShape side = side_shape(a, b, c);
+      return side.height < kThin * cell && side.bow > kHigh * cell;
+    };
+    return bridges(p, q, r) || bridges(q, r, p) || bridges(r, p, q);
   }
 
   /// Whether a triangle is turned against the field at its centroid, or, where that is asked for, has corners that face too
@@ -175,7 +184,7 @@ class CellPatcher {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
       if (least_corner_cosine_ > -1.0) {
         if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
-        if (is_bridge(p, q, r, cell) || is_bridge(q, r, p, cell) || is_bridge(r, p, q, cell)) return true;
+        if (is_bridge(p, q, r, cell)) return true;
       }
       if (least_normal_cosine(p, q, r) > kSuspect) continue;
       if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
