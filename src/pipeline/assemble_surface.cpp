@@ -160,7 +160,7 @@ class CellPatcher {
   /// Whether the surface rises high over a long side of a thin triangle, as over the ends of a ridge: however the triangle is
   /// split, its parts are turned far from the field.
   static bool is_bridge(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, double cell) {
-    constexpr double kLong = 0.6, kThin = 0.06, kHigh = 0.07;  // cells
+    constexpr double kLong = 0.6, kHigh = 0.08;  // cells
     const auto bridges = [&](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
       double length_sq = 0.0;
       for (int k = 0; k < 3; ++k) {
@@ -169,7 +169,7 @@ class CellPatcher {
       }
       if (length_sq <= kLong * cell * kLong * cell) return false;
       const SideShape side = side_shape(a, b, c);
-      return side.height < kThin * cell && side.bow > kHigh * cell;
+      return side.bow > kHigh * cell && side.height < side.bow;
     };
     return bridges(p, q, r) || bridges(q, r, p) || bridges(r, p, q);
   }
