@@ -49,8 +49,8 @@ class NearAtoms : public WeightedCentres {
   /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and at least `distance_sq` away.
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
-  /// Accounts for `count` atoms left out, each with |log-weight| at most `largest_w`, whose largest exponents came out
-  /// below -cut.
+  /// Accounts for `count` atoms left out, each with |log-weight| at most `largest_w`, whose largest exponents came
+  /// out below -cut.
   void add_cut_to_tail(double count, double largest_w, double decay);
 
   /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with

@@ -240,7 +240,8 @@ std::optional<Place> BlockField::project_along(const Vec3& direction, const Vec3
 
 Curvatures principal_curvatures(const FieldJet& jet) {
   // In an orthonormal frame (t1, t2) of the tangent plane the shape operator is the Hessian over the slope; its
-  // eigenvalues in absolute value are |H| + sqrt(H^2 - K) and ||H| - sqrt(H^2 - K)| of the mean and Gaussian curvature.
+  // eigenvalues in absolute value are |H| + sqrt(H^2 - K) and ||H| - sqrt(H^2 - K)| of the mean and Gaussian
+  // curvature.
   const Vec3& g = jet.gradient;
   const double slope = length(g);
   const Vec3 n = 1.0 / slope * g;

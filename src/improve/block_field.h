@@ -38,8 +38,8 @@ struct RoughAtoms {
 
 /// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
 /// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where
-/// rough places are asked for; those are found in single precision. No bounds are kept, since the verdict on a finished
-/// mesh does not come from here.
+/// rough places are asked for; those are found in single precision. No bounds are kept, since the verdict on a
+/// finished mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);
@@ -52,8 +52,8 @@ class BlockField {
   /// Cost: one or two sums over the atoms nearby.
   std::optional<Place> project(const Vec3& point, double farthest, Accuracy accuracy = Accuracy::kExact);
 
-  /// The same on the line through the point, which need not be steep: exact, and nothing where the line does not lead to the
-  /// surface on one way.
+  /// The same on the line through the point, which need not be steep: exact, and nothing where the line does not
+  /// lead to the surface on one way.
   std::optional<Place> project_along(const Vec3& direction, const Vec3& point, double farthest);
 
   const Box& box() const { return box_; }

@@ -20,8 +20,9 @@ double wanted_size(const BlockMesh& m, Index h) {
 /// A flip for the valences' sake may leave angles down to 20 degrees; relaxation opens them again.
 constexpr double kLeastSineForValence = 0.34;
 
-/// Where triangles lead over a rim of the surface, from one side to the other, splits lead out of that; but the first parts
-/// may be turned by more than the whole was. Then they are well-shaped, and kept from their neighbours by exact signs.
+/// Where triangles lead over a rim of the surface, from one side to the other, splits lead out of that; but the
+/// first parts may be turned by more than the whole was. Then they are well-shaped, and kept from their neighbours
+/// by exact signs.
 constexpr double kTurnLimitOnRims = 0.1, kLeastSineOnRims = 0.2;
 
 /// Normal of a triangle, as long as its doubled area.

@@ -8,9 +8,9 @@ namespace gaussmesh {
 
 /// An operation is refused if it breaks the link condition, turns a triangle by more than kTurnLimit (or more than
 /// those it replaces) from the field, leaves the block, or lets triangles meet where another sheet is near. So the
-/// mesh keeps its topology, its side and its embedding. Only splits may turn their parts farther, where triangles lie over
-/// a rim, and then exact signs keep these from all their neighbours. Each function goes through the block once, in the order of
-/// its numbers, and returns how many operations it made.
+/// mesh keeps its topology, its side and its embedding. Only splits may turn their parts farther, where triangles
+/// lie over a rim, and then exact signs keep these from all their neighbours. Each function goes through the block
+/// once, in the order of its numbers, and returns how many operations it made.
 
 /// Splits edges longer than `factor` times the wanted size in the middle; new vertices are put on the surface.
 std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor,

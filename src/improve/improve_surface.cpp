@@ -48,7 +48,8 @@ constexpr Sweep kSweeps[] = {
     {3, false, false, false}, {3, false, false, false}, {3, true, false, false}, {2, true, true, false}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follows them until all vertices are settled: one that lies at planes of each axis in three sweeps is free in the fourth.
+/// Follows them until all vertices are settled: one that lies at planes of each axis in three sweeps is free in the
+/// fourth.
 constexpr Sweep kExtraSweep{1, true, false, true};
 constexpr int kMostExtraSweeps = 12;
 

@@ -5,8 +5,8 @@ namespace {
 
 using Index = HalfEdgeMesh::Index;
 
-/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves in both directions. A neck that
-/// is about to pinch off may be flat.
+/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves in both directions. A
+/// neck that is about to pinch off may be flat.
 double curvature_that_counts(const Curvatures& c, const SizeTargets& targets) {
   constexpr double kFlattest = 10.0;
   return std::min(c.larger, std::max(kFlattest * c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));

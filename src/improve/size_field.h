@@ -28,8 +28,8 @@ inline constexpr double kGrowth = 0.25;
 /// No edge is wanted shorter than this part of the spacing, which would make many triangles along creases ...
 inline constexpr double kLeastSize = 0.01;
 
-/// ... but where the surface curves in both directions, as where it nearly pinches off: there are few of such places, and
-/// they are small.
+/// ... but where the surface curves in both directions, as where it nearly pinches off: there are few of such
+/// places, and they are small.
 inline constexpr double kLeastSizeOfAll = 2e-5;
 
 /// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge

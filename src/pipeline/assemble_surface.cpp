@@ -55,7 +55,8 @@ class BrickTracer {
     points_->insert(points_->end(), curves.points.begin(), curves.points.end());
   }
 
-  /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in it.
+  /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in
+  /// it.
   FaceCertificate certificate_of(const CellStore::Place& place, int axis) const {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.face[axis] != kFaceUncertified) return cell.face[axis];
@@ -157,8 +158,8 @@ class CellPatcher {
     return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : vertices_[vertex];
   }
 
-  /// Whether the surface rises high over a long side of a thin triangle, as over the ends of a ridge: however the triangle is
-  /// split, its parts are turned far from the field.
+  /// Whether the surface rises high over a long side of a thin triangle, as over the ends of a ridge: however the
+  /// triangle is split, its parts are turned far from the field.
   static bool is_bridge(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, double cell) {
     constexpr double kLong = 0.6, kHigh = 0.08;  // cells
     const auto bridges = [&](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
@@ -174,8 +175,8 @@ class CellPatcher {
     return bridges(p, q, r) || bridges(q, r, p) || bridges(r, p, q);
   }
 
-  /// Whether a triangle is turned against the field at its centroid, or, where that is asked for, has corners that face too
-  /// many ways or bridges a ridge: the cell is too coarse for the surface.
+  /// Whether a triangle is turned against the field at its centroid, or, where that is asked for, has corners that
+  /// face too many ways or bridges a ridge: the cell is too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
     constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
     const auto cell = static_cast<double>(lattice_.step * fine_size(key.level));

@@ -36,8 +36,8 @@ class CellTriangulator {
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
   /// Triangulates the cells in some bricks - all of them in the first call - and those that the last call of
-  /// split.split() changed. @return those without an embedded triangulation, which must be split; when there are none,
-  /// join() makes the surface of what was kept from all calls
+  /// split.split() changed. @return those without an embedded triangulation, which must be split; when there are
+  /// none, join() makes the surface of what was kept from all calls
   std::vector<CellKey> triangulate(const SplitLattice& split, const FoldCellMap& folds,
                                    const TracedVertices& vertices, std::span<const std::uint32_t> bricks,
                                    int threads);

@@ -73,8 +73,8 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess) {
-  // The fourth derivative of log phi is that cumulant of y = 2 d times the atoms' positions: at most 3/16 of the fourth
-  // power of their range.
+  // The fourth derivative of log phi is that cumulant of y = 2 d times the atoms' positions: at most 3/16 of the
+  // fourth power of their range.
   const double range = atoms.size() > 0 ? 2.0 * decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
   const double fourth = 3.0 / 16.0 * range * range * range * range;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
@@ -93,9 +93,9 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     const double by = next - x, step = std::abs(by);
     root.position = next;
     for (int k = 0; k < 3; ++k) root.gradient[k] += by * (gradient_slope[k] + 0.5 * by * gradient_curvature[k]);
-    // The cubic misses by the fourth derivative times step^4 / 24, over the slope, which itself changes by no more than
-    // half over the step; and the step of Newton's method to its zero, by no more than step (bend / slope)^3 / 36. The
-    // gradient, corrected to second order, is good to 1e-7 then.
+    // The cubic misses by the fourth derivative times step^4 / 24, over the slope, which itself changes by no more
+    // than half over the step; and the step of Newton's method to its zero, by no more than step (bend / slope)^3 /
+    // 36. The gradient, corrected to second order, is good to 1e-7 then.
     const double bend = step * (std::abs(curvature) + step * (std::abs(third) + step * fourth)) / std::abs(slope);
     const bool is_near = step * step * step * step * fourth < 12.0 * kRootTolerance * std::abs(slope) && bend < 0.5 &&
                          step * bend * bend * bend < 18.0 * kRootTolerance &&
