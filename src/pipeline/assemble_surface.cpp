@@ -283,13 +283,15 @@ std::size_t CellTriangulator::fold_cells() const {
   return count;
 }
 
-SurfaceMesh CellTriangulator::join(CellStore& store, const TracedVertices& vertices, int threads) && {
+SurfaceMesh CellTriangulator::join(CellStore& store, TracedVertices& vertices, int threads) && {
   std::size_t inner_points = 0;
   for (const PatchedCells& cells : patched_) inner_points += cells.points.size();
   SurfaceMesh surface;
   surface.points = store.release_roots();
-  surface.points.reserve(surface.points.size() + vertices.added().size() + inner_points);
-  surface.points.insert(surface.points.end(), vertices.added().begin(), vertices.added().end());
+  std::vector<SurfacePoint> added = vertices.release_added();
+  surface.points.reserve(surface.points.size() + added.size() + inner_points);
+  surface.points.insert(surface.points.end(), added.begin(), added.end());
+  added = {};
   std::vector<std::uint32_t> dead_vertices = vertices.dropped();
   std::sort(dead_vertices.begin(), dead_vertices.end());
   for (std::size_t i = 0; i < dead_vertices.size(); ++i) {

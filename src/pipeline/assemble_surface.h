@@ -46,7 +46,7 @@ class CellTriangulator {
   std::size_t fold_cells() const;
 
   /// The surface of all cells. What `store` had is gone then.
-  SurfaceMesh join(CellStore& store, const TracedVertices& vertices, int threads) &&;
+  SurfaceMesh join(CellStore& store, TracedVertices& vertices, int threads) &&;
 
  private:
   const GaussianField& field_;

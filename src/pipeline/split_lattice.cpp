@@ -218,7 +218,7 @@ void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, Cel
     if (own.kind == CellCertificate::Kind::kExcluded) continue;
     const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
     branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign,
-                             own.single_axes | cell.single_axes});
+                             own.single_axes | unsigned{cell.single_axes}});
   }
 }
 

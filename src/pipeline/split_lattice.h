@@ -25,9 +25,15 @@ void mark_folds(const FoldCellMap& folds, CellStore& store);
 /// A smaller cell with its certificate.
 struct LeafCell {
   CellKey key;
-  int axis = 0;
-  int sign = 0;              ///< 0: cut along folds
-  unsigned single_axes = 0;  ///< as in CellCertificate
+  std::int8_t axis = 0;
+  std::int8_t sign = 0;          ///< 0: cut along folds
+  std::uint8_t single_axes = 0;  ///< as in CellCertificate
+
+  LeafCell(const CellKey& of_key, int of_axis, int of_sign, unsigned of_single_axes)
+      : key(of_key),
+        axis(static_cast<std::int8_t>(of_axis)),
+        sign(static_cast<std::int8_t>(of_sign)),
+        single_axes(static_cast<std::uint8_t>(of_single_axes)) {}
 };
 
 /// A cell that was split, and the smaller cells that are left of it.

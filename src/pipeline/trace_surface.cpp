@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/lattice_degenerate.h"
 #include "core/sort_and_unite.h"
@@ -71,27 +72,28 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
   }
   mark_folds(search.folds, store);
   TracedVertices vertices(store);
-  SplitLattice split(field, lattice, store, search.folds, vertices);
+  auto split = std::make_optional<SplitLattice>(field, lattice, store, search.folds, vertices);
   CellTriangulator cells(field, lattice, store, least_corner_cosine);
   std::vector<std::uint32_t> all_bricks(store.bricks().size());
   std::iota(all_bricks.begin(), all_bricks.end(), 0u);
   std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
-    split.split(to_split, threads);
-    note_leaves(split, lattice, result);
-    if (!split.uncertified().empty()) {
-      result.uncertified = split.uncertified();
+    split->split(to_split, threads);
+    note_leaves(*split, lattice, result);
+    if (!split->uncertified().empty()) {
+      result.uncertified = split->uncertified();
       return result;
     }
-    const std::vector<std::uint32_t> taken_over = split.mark_cells(store);
+    const std::vector<std::uint32_t> taken_over = split->mark_cells(store);
     const std::vector<std::uint32_t>& to_trace = round == 0 ? all_bricks : taken_over;
     trace_bricks(field, lattice, store, to_trace, vertices, threads);
     finished("curves");
     const std::vector<std::uint32_t> to_patch =
-        round == 0 ? all_bricks : united(bricks_that_see(store, to_trace), split.changed_bricks());
-    to_split = cells.triangulate(split, search.folds, vertices, to_patch, threads);
+        round == 0 ? all_bricks : united(bricks_that_see(store, to_trace), split->changed_bricks());
+    to_split = cells.triangulate(*split, search.folds, vertices, to_patch, threads);
     if (to_split.empty()) {
-      result.cells_split = split.split_cells();
+      result.cells_split = split->split_cells();
+      split.reset();  // nobody asks for its cells and curves any more, and the mesh needs the room
       result.cells_cut_by_folds = cells.fold_cells();
       result.surface = std::move(cells).join(store, vertices, threads);
       finished("patches");

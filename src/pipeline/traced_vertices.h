@@ -41,7 +41,8 @@ class TracedVertices {
     for (std::uint32_t v = range.first; v < range.first + range.count; ++v) dropped_.push_back(v);
   }
 
-  const std::vector<SurfacePoint>& added() const { return points_; }
+  /// Those that are not in the store; they are not here any more afterwards.
+  std::vector<SurfacePoint> release_added() { return std::move(points_); }
   const std::vector<std::uint32_t>& dropped() const { return dropped_; }
 
  private:
