@@ -47,16 +47,16 @@ struct Run {
 /// Whether any vertex of the runs is of another sheet than v and within reach of it, or v within its reach.
 GAUSSMESH_SIMD_CLONES
 bool has_close_sheet(const VertexArrays& a, std::uint32_t v, const Run* runs, std::size_t count) {
-  const float *ax = a.x.data(), *ay = a.y.data(), *az = a.z.data(), *anx = a.nx.data(), *any = a.ny.data(),
-              *anz = a.nz.data(), *areach = a.reach.data();
-  const float x = ax[v], y = ay[v], z = az[v], nx = anx[v], ny = any[v], nz = anz[v], reach = areach[v];
+  const float *xs = a.x.data(), *ys = a.y.data(), *zs = a.z.data(), *reaches = a.reach.data();
+  const float *nxs = a.nx.data(), *nys = a.ny.data(), *nzs = a.nz.data();
+  const float x = xs[v], y = ys[v], z = zs[v], nx = nxs[v], ny = nys[v], nz = nzs[v], reach = reaches[v];
   for (std::size_t r = 0; r < count; ++r) {
     int found = 0;
 #pragma omp simd reduction(| : found)
     for (std::uint32_t i = runs[r].first; i < runs[r].last; ++i) {
-      const float dx = ax[i] - x, dy = ay[i] - y, dz = az[i] - z;
-      const float most = areach[i] > reach ? areach[i] : reach;
-      found |= int{nx * anx[i] + ny * any[i] + nz * anz[i] < kOtherSheet} &
+      const float dx = xs[i] - x, dy = ys[i] - y, dz = zs[i] - z;
+      const float most = reaches[i] > reach ? reaches[i] : reach;
+      found |= int{nx * nxs[i] + ny * nys[i] + nz * nzs[i] < kOtherSheet} &
                int{dx * dx + dy * dy + dz * dz < most * most};
     }
     if (found != 0) return true;
