@@ -222,6 +222,7 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
 
 std::optional<Place> BlockField::project_along(const Vec3& direction, const Vec3& point, double farthest) {
   constexpr double kGoodStep = 1e-8, kGoodPart = 1e-5;
+  if (!(length(direction) > 0.0)) return std::nullopt;
   const Vec3 unit = 1.0 / length(direction) * direction;
   double at = 0.0;
   for (int iteration = 0; iteration < 40; ++iteration) {

@@ -75,6 +75,12 @@ struct BlockMesh : MeshVertices {
   }
 };
 
+/// Normal of a triangle, as long as its doubled area.
+inline Vec3 area_normal(const BlockMesh& m, std::uint32_t t) {
+  const Triangle v = m.connectivity.triangle(t);
+  return cross(m.at[v[1]] - m.at[v[0]], m.at[v[2]] - m.at[v[0]]);
+}
+
 /// What decides whether a triangle is good: its smallest angle, and how far it is turned from the field.
 struct TriangleQuality {
   double min_sine = 0.0;        ///< sine of the smallest angle; 0: degenerate

@@ -25,12 +25,6 @@ constexpr double kLeastSineForValence = 0.34;
 /// by exact signs.
 constexpr double kTurnLimitOnRims = 0.1, kLeastSineOnRims = 0.2;
 
-/// Normal of a triangle, as long as its doubled area.
-Vec3 area_normal(const BlockMesh& m, Index t) {
-  const Triangle v = m.connectivity.triangle(t);
-  return cross(m.at[v[1]] - m.at[v[0]], m.at[v[2]] - m.at[v[0]]);
-}
-
 /// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
 inline bool names_edge(const BlockMesh& m, Index h) {
   const HalfEdgeMesh& c = m.connectivity;

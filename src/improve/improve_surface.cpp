@@ -85,7 +85,8 @@ double mean_edge(const WholeMesh& mesh) {
 /// settled. @return whether any are active
 bool activate_bad_places(BlockMesh& mesh) {
   constexpr int kRings = 4;
-  constexpr int kRingsThatChange = 2;  // triangles change that far round active vertices: a collapse takes a neighbour away
+  // Triangles change this far round active vertices: a collapse takes a neighbour away.
+  constexpr int kRingsThatChange = 2;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
   std::vector<std::uint8_t> may_change(mesh.at.size(), 0);

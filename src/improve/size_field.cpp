@@ -118,13 +118,9 @@ std::vector<Index> refine_sharp_edges(BlockMesh& mesh, float factor) {
   constexpr float kLeastRefinement = 0.4f;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<std::uint8_t> is_sharp(mesh.at.size(), 0);
-  const auto normal_of = [&](Index t) {
-    const Triangle v = c.triangle(t);
-    return cross(mesh.at[v[1]] - mesh.at[v[0]], mesh.at[v[2]] - mesh.at[v[0]]);
-  };
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!c.has_triangle(h / 3) || c.twin(h) < h || !c.is_inner(c.from(h)) || !c.is_inner(c.to(h))) continue;
-    const Vec3 m = normal_of(h / 3), n = normal_of(c.twin(h) / 3);
+    const Vec3 m = area_normal(mesh, h / 3), n = area_normal(mesh, c.twin(h) / 3);
     const double cosine = dot(m, n);
     if (cosine > 0.0 && cosine * cosine >= kSharp * kSharp * dot(m, m) * dot(n, n)) continue;
     for (const Index v : {c.from(h), c.to(h), c.opposite(h), c.opposite(c.twin(h))}) is_sharp[v] = 1;

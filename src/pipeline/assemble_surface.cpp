@@ -62,9 +62,7 @@ class BrickTracer {
     if (cell.face[axis] != kFaceUncertified) return cell.face[axis];
     const auto below = store_.find(moved(store_.lowest_corner(place), axis, -kFinePerCell), place.brick);
     if (!below) return kFaceEmpty;
-    const SurfaceCell& other = store_.cell(*below);
-    if (other.sign == 0 || other.axis == axis) return kFaceUncertified;
-    return other.axis == first_axis(axis) ? kFaceAlongFirst : kFaceAlongSecond;
+    return certificate_in_face(store_.cell(*below).single_axes(), axis);
   }
 
   void move_to(std::uint32_t brick) {

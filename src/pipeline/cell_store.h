@@ -25,6 +25,9 @@ struct SurfaceCell {
   std::array<std::uint8_t, 3> link_count{};
   std::uint32_t first_root = 0;     ///< roots on the edges along x, y, z, one after the other, counted in the brick
   std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
+
+  /// As in CellCertificate: what is kept of them.
+  unsigned single_axes() const { return sign != 0 ? 1u << axis : 0u; }
 };
 
 /// Vertices with numbers that follow each other.

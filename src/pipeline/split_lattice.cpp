@@ -112,7 +112,7 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
 LeafCell SplitLattice::find_cell(const CellKey& key) const {
   if (key.level == 0) {
     const SurfaceCell& cell = store_.cell(*store_.find(key.lo));
-    return {key, cell.axis, cell.sign, cell.sign != 0 ? 1u << cell.axis : 0u};
+    return {key, cell.axis, cell.sign, cell.single_axes()};
   }
   const std::vector<LeafCell>& leaves = cells_[cell_of_[*find_split_around(key)]].leaves;
   return *std::find_if(leaves.begin(), leaves.end(), [&](const LeafCell& leaf) { return leaf.key == key; });
