@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "boxes/gradient_cone.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -14,10 +16,13 @@ int proven_sign(const Range& slope) { return slope.lo > 0.0 ? 1 : slope.hi < 0.0
 
 bool is_excluded(const Range& value) { return value.hi < 0.0 || value.lo > 0.0; }
 
-/// Whether there is no surface in the box of the view, or phi grows along the axis (or falls: sign) wherever it is.
-bool proves(const LocalModel::View& view, int axis, int sign) {
-  return is_excluded(view.value()) || proven_sign(view.slope(axis)) == sign;
+/// Whether there is no surface in the box of the view, or phi changes along the direction as it says wherever it is.
+bool proves(const LocalModel::View& view, const Direction& direction) {
+  return is_excluded(view.value()) || proven_sign(view.slope(direction)) == direction.sign;
 }
+
+/// Slanted directions that are tried for a cell.
+constexpr int kMostDirections = 8;
 
 /// Bit k for axis k, from the bits of directions along it.
 unsigned axes_of(unsigned directions) {
@@ -46,7 +51,7 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   depth_ = depth;
   ++boxes_by_depth_[0];
   const LocalModel::View view = model.over_all();
-  if (is_excluded(view.value())) return {Kind::kExcluded, 0, 0, 0};
+  if (is_excluded(view.value())) return {Kind::kExcluded, {}, 0};
 
   const Vec3 gradient = view.middle_gradient();
   std::array<int, 3> axes = {0, 1, 2};
@@ -55,11 +60,11 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   for (int axis : axes) {
     const int sign = proven_sign(view.slope(axis));
     if (sign == 0) continue;
-    if (whole.sign == 0) whole = {Kind::kMonotone, axis, sign, 0};
+    if (whole.kind != Kind::kMonotone) whole = {Kind::kMonotone, along_axis(axis, sign), 0};
     whole.single_axes |= 1u << axis;
   }
-  if (whole.sign != 0) return whole;
-  if (depth_ == 0) return {Kind::kUncertified, 0, 0, 0};
+  if (whole.kind == Kind::kMonotone) return whole;
+  if (depth_ == 0) return {Kind::kUncertified, {}, 0};
 
   // What is known of each eighth of the cell is found once for all directions: by the cell's own model, which takes
   // no sums over atoms, and where that leaves all directions open in some eighth, by a model of each.
@@ -70,11 +75,11 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     parts[child] = look_at(model.over(box), box);
     common &= parts[child].proven;
   }
-  if (common == kAllDirections) return {Kind::kExcluded, 0, 0, 0};
+  if (common == kAllDirections) return {Kind::kExcluded, {}, 0};
   if (common != 0) {
     for (const int axis : axes) {
       for (const int sign : {1, -1}) {
-        if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, axis, sign, axes_of(common)};
+        if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, along_axis(axis, sign), axes_of(common)};
       }
     }
   }
@@ -97,7 +102,7 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     }
   }
   if (std::all_of(parts, parts + 8, [](const Part& part) { return part.proven == kAllDirections; })) {
-    return {Kind::kExcluded, 0, 0, 0};
+    return {Kind::kExcluded, {}, 0};
   }
   // The gradient in the middle says little of a surface that only grazes the cell: the other signs come last.
   int order[6];
@@ -112,11 +117,29 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     bool proven = true;
     for (int child = 0; proven && child < 8; ++child) {
       if (parts[child].proven >> direction & 1) continue;
-      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], axis, sign, depth_ - 1);
+      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], along_axis(axis, sign), depth_ - 1);
     }
-    if (proven) return {Kind::kMonotone, axis, sign, 1u << axis};
+    if (proven) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
   }
-  return {Kind::kUncertified, 0, 0, 0};
+  // No axis: the surface bends too far. A direction in the midst of its gradients may do, and where it does not, one
+  // nearer to the gradient that was against it.
+  GradientCone cone;
+  for (int child = 0; child < 8; ++child) {
+    if (parts[child].proven != kAllDirections) cone.add(models[child].over_all().middle_gradient());
+  }
+  for (int attempt = 0; attempt < kMostDirections; ++attempt) {
+    const Direction slanted = nearest_direction(cone.middle());
+    if (!slanted.is_slanted()) break;
+    bool proven = true;
+    for (int child = 0; proven && child < 8; ++child) {
+      if (parts[child].proven == kAllDirections || proves(models[child].over_all(), slanted)) continue;
+      refuting_gradient_ = models[child].over_all().middle_gradient();
+      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], slanted, depth_ - 1);
+    }
+    if (proven) return {Kind::kMonotone, slanted, 0};
+    cone.add(refuting_gradient_);
+  }
+  return {Kind::kUncertified, {}, 0};
 }
 
 CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& box) {
@@ -133,16 +156,22 @@ CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& bo
   return part;
 }
 
-bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth) {
+bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction,
+                             int depth) {
   for (int child = 0; child < 8; ++child) {
     const Box box = child_box(model.box(), child);
-    if (proves(model.over(box), axis, sign)) continue;
+    if (proves(model.over(box), direction)) continue;
     count_box(depth);
     const LocalModel closer(atoms, decay_, box);
     const LocalModel::View view = closer.over_all();
-    if (proves(view, axis, sign)) continue;
-    if (depth <= 1 || (proven_sign(view.slope(axis)) == -sign && surface_is_surely_near(view, box))) return false;
-    if (!prove_parts(atoms, closer, axis, sign, depth - 1)) return false;
+    if (proves(view, direction)) continue;
+    const bool is_refuted = proven_sign(view.slope(direction)) == -direction.sign &&
+                            surface_is_surely_near(view, box);
+    if (depth <= 1 || is_refuted) {
+      refuting_gradient_ = view.middle_gradient();
+      return false;
+    }
+    if (!prove_parts(atoms, closer, direction, depth - 1)) return false;
   }
   return true;
 }

@@ -1,33 +1,34 @@
-// The certificate of a cell: the surface in it is a graph along one axis.
+// The certificate of a cell: the surface in it is a graph along one direction.
 #pragma once
 
 #include <algorithm>
 
+#include "core/direction.h"
 #include "field/local_model.h"
 #include "field/near_atoms.h"
 
 namespace gaussmesh {
 
-/// Along `axis` phi passes c in one direction only, everywhere in the cell: {phi = c} is single-valued along it.
+/// Along `direction` phi passes c in one sense only, everywhere in the cell: {phi = c} is single-valued along it. Most
+/// cells have an axis for it; where the surface is bent more, a slanted direction in its midst serves as well.
 struct CellCertificate {
   enum class Kind : std::int8_t {
     kExcluded,     ///< proven: no surface in the closed cell
-    kMonotone,     ///< proven: d(phi)/d(axis) has `sign` wherever phi = c in the closed cell
-    kUncertified,  ///< no axis could be proven
+    kMonotone,     ///< proven: the derivative along `direction` has its sign wherever phi = c in the closed cell
+    kUncertified,  ///< no direction could be proven
   };
   Kind kind = Kind::kUncertified;
-  int axis = 0;
-  int sign = 0;  ///< +1: phi grows along the axis
+  Direction direction{};
   unsigned single_axes = 0;  ///< bit k: the same is proven of axis k; others have not all been looked at
 };
 
-/// Proves axes of cells, looking closer through sub-boxes where the cell as a whole does not show it.
+/// Proves directions of cells, looking closer through sub-boxes where the cell as a whole does not show one.
 class CellProver {
  public:
   explicit CellProver(double decay) : decay_(decay) {}
 
   /// `model` is over the whole cell; `atoms` were collected for a box around it.
-  /// @param depth  how often the cell is halved before its axis counts as unproven
+  /// @param depth  how often the cell is halved before it counts as unproven
   CellCertificate certify(const NearAtoms& atoms, const LocalModel& model, int depth);
 
   /// Sub-boxes that have had models of their own so far, by how often the cell was halved for them.
@@ -41,14 +42,16 @@ class CellProver {
   };
   static Part look_at(const LocalModel::View& view, const Box& box);
 
-  /// Whether d(phi)/d(axis) has `sign` wherever phi = c in the box of the model: proven through its parts, or not.
-  bool prove_parts(const NearAtoms& atoms, const LocalModel& model, int axis, int sign, int depth);
+  /// Whether phi passes c as the direction says wherever it does in the box of the model: proven through its parts, or
+  /// not.
+  bool prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction, int depth);
 
   void count_box(int depth) { ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)]; }
 
   double decay_;
   int depth_ = 0;  ///< of the cell that is being looked at
   NearAtoms cell_atoms_;
+  Vec3 refuting_gradient_{};  ///< in the box that ended the last proof that failed
   std::vector<std::size_t> boxes_by_depth_ = std::vector<std::size_t>(16, 0);
 };
 

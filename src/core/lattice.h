@@ -27,6 +27,10 @@ struct Box {
   Vec3 hi{};
 };
 
+/// The axes of a plane across `axis`: (first, second, axis) is right-handed.
+inline constexpr int first_axis(int axis) { return (axis + 1) % 3; }
+inline constexpr int second_axis(int axis) { return (axis + 2) % 3; }
+
 /// Number of the slab, of `count` of width 1 from 0 on, that holds `x`; the first or the last one for what lies beyond.
 template <typename Real>
 int slab_of(Real x, int count) {

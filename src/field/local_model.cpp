@@ -301,4 +301,38 @@ Range LocalModel::View::slope(int axis) const {
   return range;
 }
 
+Range LocalModel::View::slope_along(const Vec3& n) const {
+  const double d = model_.decay_;
+  if (!model_.usable_ || model_.tail_ > 0.01) return {-kInfinity, kInfinity};
+  double size = 0.0, reach = 0.0, c = 0.0, q0 = 0.0, rest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    size += std::abs(n[k]);
+    reach += std::abs(n[k]) * s_[k];
+    c += n[k] * (model_.mean_offset_[k] + t_[k]);
+    q0 += n[k] * g1_[k];
+    rest += std::abs(n[k]) * remainder_slope_[k];
+  }
+  q0 -= 2.0 * d * c * g_;
+  double linear = 0.0, quadratic = 0.0;
+  for (int l = 0; l < 3; ++l) {
+    double second = 0.0;
+    for (int k = 0; k < 3; ++k) second += n[k] * g2_[kSecond[k][l]];
+    linear += std::abs(second - 2.0 * d * (n[l] * g_ + c * g1_[l])) * s_[l];
+    for (int m = l; m < 3; ++m) {
+      double third = 0.0;
+      for (int k = 0; k < 3; ++k) third += n[k] * model_.third_[kThird[k][l][m]];
+      quadratic += (l == m ? 1.0 : 2.0) *
+                   std::abs(third - 2.0 * d * (n[l] * g1_[m] + n[m] * g1_[l] + c * g2_[kSecond[l][m]])) * s_[l] * s_[m];
+    }
+  }
+  const double cubic = d * reach * sum2_ + d / 3.0 * (std::abs(c) + reach) * sum3_;
+  rest += 2.0 * d * (std::abs(c) + reach) * remainder_;
+  double centre_size = 0.0;
+  for (int k = 0; k < 3; ++k) centre_size += std::abs(n[k]) * (std::abs(model_.mean_offset_[k] + t_[k]) + s_[k]);
+  const double rounding = 16.0 * model_.relative_error_ * 2.0 * d * centre_size;
+  const double omitted = 1.02 * model_.tail_slope_ * size;
+  const double spread = linear + 0.5 * quadratic + cubic + rest + rounding + omitted * model_.growth_;
+  return {q0 - spread, q0 + spread};
+}
+
 }  // namespace gaussmesh

@@ -1,6 +1,7 @@
 // Bounds of the field over a box and its parts: the proof's one source of truth.
 #pragma once
 
+#include "core/direction.h"
 #include "field/near_atoms.h"
 
 namespace gaussmesh {
@@ -71,12 +72,19 @@ class LocalModel::View {
   /// Range that has the sign of d(phi)/dx_axis wherever in the part phi = c: a positive `lo` or negative `hi` proves it.
   Range slope(int axis) const;
 
+  /// The same of the derivative along the vector of a direction, whatever the sign that it tells.
+  Range slope(const Direction& direction) const {
+    return direction.is_slanted() ? slope_along(direction.vector()) : slope(direction.axis);
+  }
+
   /// log(phi / c) at the middle of the part, from the model, and its gradient; no bounds.
   double middle_value() const { return middle_value_; }
   Vec3 middle_gradient() const;
   double middle_curvature(int axis) const;  ///< second derivative along an axis
 
  private:
+  Range slope_along(const Vec3& direction) const;
+
   const LocalModel& model_;
   Vec3 t_{};            ///< middle of the part relative to the model's (A)
   Vec3 s_{};            ///< its half widths (A)

@@ -45,17 +45,16 @@ std::uint8_t faces_of(const CoordPoint& point, const CoordPoint& lo, const Coord
 }
 
 PlanePoint PatchTriangulator::project(const CoordPoint& p) const {
-  const Coord a = p[first_axis(axis_)], b = p[second_axis(axis_)];
+  const PlanePoint seen = direction_.project(p);
   // Seen from the solvent, so that loops turn counter-clockwise.
-  return sign_ < 0 ? PlanePoint{a, b} : PlanePoint{b, a};
+  return direction_.sign < 0 ? seen : PlanePoint{seen.b, seen.a};
 }
 
-const Patch& PatchTriangulator::triangulate(const CoordPoint& lo, const CoordPoint& hi, int axis, int sign,
-                                            std::span<const Loop> loops) {
+const Patch& PatchTriangulator::triangulate(const CoordPoint& lo, const CoordPoint& hi,
+                                            const Direction& direction, std::span<const Loop> loops) {
   lo_ = lo;
   hi_ = hi;
-  axis_ = axis;
-  sign_ = sign;
+  direction_ = direction;
   atoms_loaded_ = false;
   patch_.triangles.clear();
   patch_.points.clear();
@@ -70,8 +69,8 @@ bool PatchTriangulator::make_polygons(std::span<const Loop> loops) {
   vertices_.clear();
   polygons_.clear();
   holes_.clear();
-  on_outline_ = true;
-  const unsigned sides = 0x3Fu & ~(3u << (2 * axis_));
+  on_outline_ = !direction_.is_slanted();
+  const unsigned sides = 0x3Fu & ~(3u << (2 * direction_.axis));
   for (const Loop& loop : loops) {
     if (loop.size() < 3) return false;
     Polygon polygon;
@@ -81,9 +80,25 @@ bool PatchTriangulator::make_polygons(std::span<const Loop> loops) {
       vertices_.push_back(v);
     }
     const bool positive = doubled_area(polygon) > 0.0;
+    // A loop on the sides, which are seen as lines, is an outer boundary, whatever its chords seem.
+    const auto on_side = [&](const LoopVertex& v) { return (v.faces & sides) != 0; };
+    if (!positive && std::any_of(loop.begin(), loop.end(), on_side)) return false;
     (positive ? polygons_ : holes_).push_back(std::move(polygon));
   }
-  return on_outline_ ? holes_.empty() : boundaries_are_disjoint();
+  if (on_outline_) return holes_.empty();
+  return boundaries_are_disjoint() && (!direction_.is_slanted() || are_separate_discs());
+}
+
+/// Seen aslant, chords may turn another way than curves that bend far, but a polygon that turns as an outer boundary is
+/// one. A loop on faces of the near side alone, or of the far side, moves to its chords within them, and these are seen
+/// as they are. One that goes round the outline is an outer boundary whatever it seems: lines near the outline are
+/// short, so that surface is there only between the branches of the loop. Where one seems a hole, or discs seem to
+/// overlap, nothing is known.
+bool PatchTriangulator::are_separate_discs() const {
+  return holes_.empty() && std::none_of(polygons_.begin(), polygons_.end(), [&](const Polygon& polygon) {
+    return std::any_of(polygons_.begin(), polygons_.end(),
+                       [&](const Polygon& other) { return strictly_inside(polygon, other[0].at); });
+  });
 }
 
 bool PatchTriangulator::boundaries_are_disjoint() const {
@@ -229,6 +244,7 @@ void PatchTriangulator::take_triangles(const Polygon& polygon) {
 }
 
 bool PatchTriangulator::add_inner_corner(Polygon& polygon) {
+  if (direction_.is_slanted()) return false;
   // Candidates: the middle of all corners, and the middles between corners that are not neighbours.
   std::vector<PlanePoint> candidates;
   PlanePoint sum;
@@ -266,21 +282,22 @@ void PatchTriangulator::drop_last_point() {
 }
 
 int PatchTriangulator::lift(const PlanePoint& at) {
+  const int axis = direction_.axis;
   CoordPoint p = lo_;
-  p[first_axis(axis_)] = sign_ < 0 ? at.a : at.b;
-  p[second_axis(axis_)] = sign_ < 0 ? at.b : at.a;
+  p[first_axis(axis)] = direction_.sign < 0 ? at.a : at.b;
+  p[second_axis(axis)] = direction_.sign < 0 ? at.b : at.a;
   const Vec3 start = to_angstrom(p);
   Vec3 end = start;
-  end[axis_] = to_angstrom(hi_[axis_]);
+  end[axis] = to_angstrom(hi_[axis]);
   if (!atoms_loaded_) field_.collect_near({to_angstrom(lo_), to_angstrom(hi_)}, atoms_);
   atoms_loaded_ = true;
   const double decay = field_.decay();
   const LocalModel model(atoms_, decay, {start, end});
   const bool inside_lo = is_inside(field_, atoms_, model, start);
   if (inside_lo == is_inside(field_, atoms_, model, end)) return -1;
-  const LineRoot root = refine_root(atoms_, decay, start, axis_, start[axis_], end[axis_], inside_lo,
-                                    0.5 * (start[axis_] + end[axis_]));
-  p[axis_] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis_] + 1, hi_[axis_] - 1);
+  const LineRoot root = refine_root(atoms_, decay, start, axis, start[axis], end[axis], inside_lo,
+                                    0.5 * (start[axis] + end[axis]));
+  p[axis] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis] + 1, hi_[axis] - 1);
   LoopVertex v;
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());
   v.point = {p, outward_normal(root.gradient), 0};

@@ -1,4 +1,4 @@
-// Triangles for the surface in ONE cell that is single-valued along an axis.
+// Triangles for the surface in ONE cell that is single-valued along a direction.
 //
 // The loops come from the curves on the cell's faces (trace/); cells that are not single-valued are patch/fold_cell.h.
 #pragma once
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/exact_plane.h"
+#include "core/direction.h"
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
 #include "patch/minimal_triangulation.h"
@@ -47,9 +47,10 @@ class PatchTriangulator {
  public:
   explicit PatchTriangulator(const GaussianField& field) : field_(field) {}
 
-  /// @param axis, sign  as in CellCertificate
-  /// @return            valid until the next call
-  const Patch& triangulate(const CoordPoint& lo, const CoordPoint& hi, int axis, int sign, std::span<const Loop> loops);
+  /// @param direction  as in CellCertificate
+  /// @return           valid until the next call
+  const Patch& triangulate(const CoordPoint& lo, const CoordPoint& hi, const Direction& direction,
+                           std::span<const Loop> loops);
 
  private:
   struct Corner {
@@ -60,6 +61,7 @@ class PatchTriangulator {
 
   bool make_polygons(std::span<const Loop> loops);
   bool boundaries_are_disjoint() const;
+  bool are_separate_discs() const;
   bool join_holes();
   bool bridge(Polygon& outer, const Polygon& hole);
   bool triangulate_polygon(const Polygon& polygon);
@@ -75,7 +77,7 @@ class PatchTriangulator {
 
   const GaussianField& field_;
   CoordPoint lo_{}, hi_{};
-  int axis_ = 0, sign_ = 0;
+  Direction direction_;
   bool atoms_loaded_ = false;
   NearAtoms atoms_;
   bool on_outline_ = true;              ///< every corner on the outline of the square: polygons are convex

@@ -121,23 +121,24 @@ class CellPatcher {
   void patch_cell(const CellStore::Place& place, Result& result) {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.split) return;
-    patch({store_.lowest_corner(place), 0}, cell.axis, cell.sign, place.brick, result);
+    patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, result);
   }
 
-  void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.axis, leaf.sign, 0, result); }
+  void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.direction, 0, result); }
 
  private:
-  void patch(const CellKey& key, int axis, int sign, std::uint32_t hint, Result& result) {
+  void patch(const CellKey& key, const Direction& direction, std::uint32_t hint, Result& result) {
     const std::span<const Loop> loops = collector_.collect(key, hint);
     if (loops.empty()) return;
     const Patch& patch =
-        sign != 0 ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), axis, sign, loops)
-                  : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
+        direction.sign != 0
+            ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), direction, loops)
+            : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
     if (!patch.complete || (key.level < kFinestForNormals && is_turned(patch, key))) {
       result.failed.push_back(key);
       return;
     }
-    result.fold_cells += sign == 0;
+    result.fold_cells += direction.sign == 0;
     const auto base = static_cast<std::uint32_t>(result.points.size());
     for (Triangle t : patch.triangles) {
       for (std::uint32_t& v : t) v = v >= kLocalVertex ? v + base : v;

@@ -47,10 +47,7 @@ class BrickBuilder {
   void add_cell(Brick& brick, const BrickWalker::Cell& found) {
     SurfaceCell cell;
     cell.local = static_cast<std::uint16_t>(found.local);
-    if (found.certificate.kind == CellCertificate::Kind::kMonotone) {
-      cell.axis = static_cast<std::int8_t>(found.certificate.axis);
-      cell.sign = static_cast<std::int8_t>(found.certificate.sign);
-    }
+    cell.direction = found.certificate.direction;
     cell.first_root = static_cast<std::uint32_t>(roots_->size());
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {

@@ -15,8 +15,7 @@ namespace gaussmesh {
 /// A cell of level 0. It owns the three edges and the three faces at its lowest corner.
 struct SurfaceCell {
   std::uint16_t local = 0;          ///< i + 8 (j + 8 k) within the brick
-  std::int8_t axis = 0;             ///< of the certificate
-  std::int8_t sign = 0;             ///< of the certificate; 0: uncertified
+  Direction direction;              ///< of the certificate; none: uncertified
   bool split = false;               ///< its surface is that of smaller cells
   std::uint8_t divided_faces = 0;   ///< bit k: the face across axis k is that of smaller cells
   std::array<std::uint8_t, 3> fold_axes{};  ///< by face: axes whose fold points the curves need (bit mask)
@@ -27,7 +26,7 @@ struct SurfaceCell {
   std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
 
   /// As in CellCertificate: what is kept of them.
-  unsigned single_axes() const { return sign != 0 ? 1u << axis : 0u; }
+  unsigned single_axes() const { return direction.sign != 0 && !direction.is_slanted() ? 1u << direction.axis : 0u; }
 };
 
 /// Vertices with numbers that follow each other.

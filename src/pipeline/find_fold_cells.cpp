@@ -15,17 +15,17 @@ namespace {
 /// A component is not cut when all its normals found have one axis in common by at least this cosine.
 constexpr float kCommonAxis = 0.1f;
 
-/// Whether a loop of a certified cell goes round surface, and not round a hole in it: seen along the axis of the
-/// certificate it turns counter-clockwise.
+/// Whether a loop of a certified cell goes round surface, and not round a hole in it: seen along the direction of the
+/// certificate it turns counter-clockwise. Seen aslant, one that goes round surface may not seem to.
 bool goes_round_surface(const LeafCell& leaf, const Loop& loop) {
   double area = 0.0;
-  const int a = first_axis(leaf.axis), b = second_axis(leaf.axis);
-  const CoordPoint& o = loop[0].point.position;
+  const PlanePoint o = leaf.direction.project(loop[0].point.position);
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const CoordPoint &p = loop[i].point.position, &q = loop[i + 1].point.position;
-    area += double(p[a] - o[a]) * double(q[b] - o[b]) - double(p[b] - o[b]) * double(q[a] - o[a]);
+    const PlanePoint p = leaf.direction.project(loop[i].point.position);
+    const PlanePoint q = leaf.direction.project(loop[i + 1].point.position);
+    area += double(p.a - o.a) * double(q.b - o.b) - double(p.b - o.b) * double(q.a - o.a);
   }
-  return leaf.sign < 0 ? area > 0.0 : area < 0.0;
+  return leaf.direction.sign < 0 ? area > 0.0 : area < 0.0;
 }
 
 /// The surface in one cell, put together from the discs of the smaller cells in it.
@@ -241,7 +241,7 @@ FoldSearchResult find_fold_cells(const GaussianField& field, const Lattice& latt
   for (std::uint32_t b = 0; b < store.bricks().size(); ++b) {
     const auto& in_brick = store.bricks()[b].cells;
     for (std::uint32_t i = 0; i < in_brick.size(); ++i) {
-      if (in_brick[i].sign == 0) cells.push_back({store.lowest_corner({b, i}), 0});
+      if (in_brick[i].direction.sign == 0) cells.push_back({store.lowest_corner({b, i}), 0});
     }
   }
   std::vector<BatchResult> found((cells.size() + kBatch - 1) / kBatch);

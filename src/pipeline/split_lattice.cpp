@@ -74,7 +74,7 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
         [&, prover = CellProver(field_.decay()), atoms = LocalAtoms(field_)](std::size_t i) mutable {
           atoms.move_to(cell_box(lattice_, cells[i]));
           const LeafCell cell = find_cell(cells[i]);
-          if (cell.sign != 0) {
+          if (cell.direction.sign != 0) {
             split_certified(cell, atoms, prover, branches[i]);
           } else {
             split_one(cells[i], atoms, prover, branches[i]);
@@ -112,7 +112,7 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
 LeafCell SplitLattice::find_cell(const CellKey& key) const {
   if (key.level == 0) {
     const SurfaceCell& cell = store_.cell(*store_.find(key.lo));
-    return {key, cell.axis, cell.sign, cell.single_axes()};
+    return {key, cell.direction, cell.single_axes()};
   }
   const std::vector<LeafCell>& leaves = cells_[cell_of_[*find_split_around(key)]].leaves;
   return *std::find_if(leaves.begin(), leaves.end(), [&](const LeafCell& leaf) { return leaf.key == key; });
@@ -217,7 +217,7 @@ void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, Cel
     const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)), 0);
     if (own.kind == CellCertificate::Kind::kExcluded) continue;
     const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
-    branch.leaves.push_back({child, is_proven ? own.axis : cell.axis, is_proven ? own.sign : cell.sign,
+    branch.leaves.push_back({child, is_proven ? own.direction : cell.direction,
                              own.single_axes | unsigned{cell.single_axes}});
   }
 }
@@ -234,9 +234,9 @@ void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver&
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
     if (certified) {
-      branch.leaves.push_back({child, certificate.axis, certificate.sign, certificate.single_axes});
+      branch.leaves.push_back({child, certificate.direction, certificate.single_axes});
     } else if (folds_.contains(child)) {
-      branch.leaves.push_back({child, 0, 0, 0});
+      branch.leaves.push_back({child, {}, 0});
     } else if (child.level < kMaxLevel) {
       LocalAtoms atoms(field_);
       atoms.move_to(box, &around);

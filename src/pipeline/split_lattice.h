@@ -25,15 +25,11 @@ void mark_folds(const FoldCellMap& folds, CellStore& store);
 /// A smaller cell with its certificate.
 struct LeafCell {
   CellKey key;
-  std::int8_t axis = 0;
-  std::int8_t sign = 0;          ///< 0: cut along folds
+  Direction direction;           ///< none: cut along folds
   std::uint8_t single_axes = 0;  ///< as in CellCertificate
 
-  LeafCell(const CellKey& of_key, int of_axis, int of_sign, unsigned of_single_axes)
-      : key(of_key),
-        axis(static_cast<std::int8_t>(of_axis)),
-        sign(static_cast<std::int8_t>(of_sign)),
-        single_axes(static_cast<std::uint8_t>(of_single_axes)) {}
+  LeafCell(const CellKey& of_key, const Direction& of_direction, unsigned of_single_axes)
+      : key(of_key), direction(of_direction), single_axes(static_cast<std::uint8_t>(of_single_axes)) {}
 };
 
 /// A cell that was split, and the smaller cells that are left of it.

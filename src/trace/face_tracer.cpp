@@ -13,8 +13,15 @@ namespace {
 /// A rectangle is not cut below this (units): ten times the distance at which roots are told apart.
 constexpr Coord kSmallestRect = 100;
 
+/// Roots of different edges whose distance across a slanted direction is below this (units) may be in another order
+/// than they seem: a thousand times what they are rounded by.
+constexpr Coord kClosestAcross = 1000;
+
 /// How often a rectangle is halved in search of an axis before it is cut.
 constexpr int kProofHalvings = 3;
+
+/// Slanted directions that are tried for a face.
+constexpr int kMostDirections = 6;
 
 /// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
 constexpr int kMaxRefinements = 8;
@@ -74,6 +81,7 @@ const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordP
     return curves_;
   }
   axis_ = axis;
+  fold_axes_ = fold_axes;
   face_ = {lo, hi};
   atoms_.move_to({to_angstrom(lo), to_angstrom(hi)}, around_);
   points_.clear();
@@ -123,8 +131,11 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
     if (!roots.empty()) throw LatticeDegenerate(to_angstrom(rect.lo));
     return;
   }
-  if ((certificate & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
-  if ((certificate & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
+  const auto pair_as = [&](FaceCertificate known) {
+    return ((known & kFaceAlongFirst) && pair_roots(rect, along_axis(first_axis(axis_)), roots)) ||
+           ((known & kFaceAlongSecond) && pair_roots(rect, along_axis(second_axis(axis_)), roots));
+  };
+  if (pair_as(certificate)) return;
   const NearAtoms& atoms = proof_atoms_of(rect);
   const Box box{to_angstrom(rect.lo), to_angstrom(rect.hi)};
   const LocalModel model(atoms, field_.decay(), box);
@@ -133,25 +144,48 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
     if (!roots.empty()) throw LatticeDegenerate(box.lo);
     return;
   }
-  if ((closer & kFaceAlongFirst) && pair_roots(rect, first_axis(axis_), roots)) return;
-  if ((closer & kFaceAlongSecond) && pair_roots(rect, second_axis(axis_), roots)) return;
+  if (pair_as(closer)) return;
   // Through parts of the rectangle, as cells are certified: cheaper than cutting it, which adds roots on the cuts.
+  if (pair_along_slant(rect, model, roots)) return;
   const Vec3 gradient = model.over_all().middle_gradient();
   int axes[2] = {first_axis(axis_), second_axis(axis_)};
   if (std::abs(gradient[axes[0]]) < std::abs(gradient[axes[1]])) std::swap(axes[0], axes[1]);
-  for (const int along : axes) {
-    const int sign = gradient[along] > 0.0 ? 1 : -1;
-    if (prove_along(atoms, model, along, sign, kProofHalvings) && pair_roots(rect, along, roots)) return;
+  for (const int axis : axes) {
+    const Direction along = along_axis(axis, gradient[axis] > 0.0 ? 1 : -1);
+    if (prove_along(atoms, model, along, kProofHalvings) && pair_roots(rect, along, roots)) return;
   }
   split_rect(rect, roots);
 }
 
-bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, int along, int sign, int depth) const {
+/// Where curves go from side to side and are single-valued along a slanted direction, all of them are chords.
+bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std::vector<RectRoot>& roots) {
+  const bool is_whole = rect.lo == face_.lo && rect.hi == face_.hi;
+  const bool turns_back = roots.size() == 2 && roots[0].side == roots[1].side;
+  if (!is_whole || turns_back || fold_axes_ != 0) return false;
+  cone_.clear();
+  const auto add_to_cone = [&](Vec3 gradient) {
+    gradient[axis_] = 0.0;
+    cone_.add(gradient);
+  };
+  for (int part = 0; part < 4; ++part) {
+    const LocalModel::View view = model.over(quarter(model.box(), axis_, part));
+    const Range value = view.value();
+    if (value.lo <= 0.0 && value.hi >= 0.0) add_to_cone(view.middle_gradient());
+  }
+  for (int attempt = 0; attempt < kMostDirections && !cone_.empty(); ++attempt) {
+    const Direction along = nearest_direction(cone_.middle());
+    if (prove_along(proof_atoms_of(rect), model, along, kProofHalvings)) return pair_roots(rect, along, roots);
+    add_to_cone(refuting_gradient_);
+  }
+  return false;
+}
+
+bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, const Direction& along, int depth) {
   const auto is_proven = [&](const LocalModel::View& view) {
     const Range value = view.value();
     if (value.hi < 0.0 || value.lo > 0.0) return true;
     const Range slope = view.slope(along);
-    return sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0;
+    return along.sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0;
   };
   for (int part = 0; part < 4; ++part) {
     const Box box = quarter(model.box(), axis_, part);
@@ -160,21 +194,32 @@ bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, in
     const LocalModel::View view = closer.over_all();
     if (is_proven(view)) continue;
     const Range slope = view.slope(along);
-    if (depth <= 1 || (sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) return false;
-    if (!prove_along(atoms, closer, along, sign, depth - 1)) return false;
+    if (depth <= 1 || (along.sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) {
+      refuting_gradient_ = view.middle_gradient();
+      return false;
+    }
+    if (!prove_along(atoms, closer, along, depth - 1)) return false;
   }
   return true;
 }
 
-bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots) {
+bool FaceTracer::pair_roots(const Rect& rect, const Direction& along, std::vector<RectRoot>& roots) {
   if (roots.size() % 2 != 0) throw LatticeDegenerate(to_angstrom(rect.lo));
-  const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
-  const auto coordinate = [&](const RectRoot& r) { return points_[r.point].point.position[over]; };
+  const bool over_first = second_axis(along.axis) == axis_;
+  const auto coordinate = [&](const RectRoot& r) {
+    const PlanePoint seen = along.project(points_[r.point].point.position);
+    return over_first ? seen.a : seen.b;
+  };
   std::sort(roots.begin(), roots.end(), [&](const RectRoot& r, const RectRoot& s) {
     return coordinate(r) < coordinate(s) || (coordinate(r) == coordinate(s) && r.side < s.side);
   });
+  // Rounding along an axis keeps the order but for ties; between axes it does not.
+  const Coord closest = along.is_slanted() ? Direction::kSlantParts * kClosestAcross : 0;
   for (std::size_t i = 2; i < roots.size(); i += 2) {
-    if (coordinate(roots[i - 1]) == coordinate(roots[i])) return false;  // the order is not known
+    if (coordinate(roots[i]) - coordinate(roots[i - 1]) <= closest) return false;  // the order is not known
+  }
+  for (std::size_t i = 0; along.is_slanted() && i < roots.size(); i += 2) {
+    if (roots[i].side == roots[i + 1].side) return false;  // needs a point between them, which is found along an axis
   }
   for (std::size_t i = 0; i < roots.size(); i += 2) {
     if (starts_curve(roots[i]) == starts_curve(roots[i + 1])) throw LatticeDegenerate(to_angstrom(rect.lo));
@@ -184,7 +229,7 @@ bool FaceTracer::pair_roots(const Rect& rect, int along, std::vector<RectRoot>& 
     if (!starts_curve(from)) std::swap(from, to);
     points_[from.point].next = to.point;
     points_[from.point].piece = static_cast<int>(pieces_.size());
-    pieces_.push_back({rect, along, Side::kUnknown, 0.0});
+    pieces_.push_back({rect, along.axis, Side::kUnknown, 0.0});
   }
   return true;
 }

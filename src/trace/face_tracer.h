@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "boxes/gradient_cone.h"
 #include "core/exact_plane.h"
 #include "field/local_atoms.h"
 #include "roots/edge_roots.h"
@@ -20,10 +21,6 @@ enum FaceCertificate : std::uint8_t {
   kFaceAlongSecond = 2,  ///< ... along the second; both bits may be set
   kFaceEmpty = 4,        ///< no surface in the closed face
 };
-
-/// The face's own axes: `axis` is its normal, (first, second, axis) is right-handed.
-inline constexpr int first_axis(int axis) { return (axis + 1) % 3; }
-inline constexpr int second_axis(int axis) { return (axis + 2) % 3; }
 
 /// Certificate of a face from a model over a box that contains it.
 FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face);
@@ -61,10 +58,10 @@ struct FaceCurves {
 /// Follows the section curves of a face from root to root [CL11].
 ///
 /// Where the face has a certificate along an axis m, the section is a graph over the other axis o, over disjoint
-/// intervals; the roots in order of o are their ends, two by two. A face without one is cut in four, and so on: the
-/// pieces are joined through the roots on the cuts, and curves that close inside the face are found too. Curves
-/// become chords between their ends; a curve that turns back to the edge it came from keeps its turning point - the
-/// fold point - and more points are kept where polygons would cross.
+/// intervals; the roots in order of o are their ends, two by two. A slanted direction serves as well where chords will
+/// do. A face without either is cut in four, and so on: the pieces are joined through the roots on the cuts, and curves
+/// that close inside the face are found too. Curves become chords between their ends; a curve that turns back to the
+/// edge it came from keeps its turning point - the fold point - and more points are kept where polygons would cross.
 /// Keeps buffers: one for each thread.
 class FaceTracer {
  public:
@@ -114,8 +111,9 @@ class FaceTracer {
   };
 
   void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
-  bool pair_roots(const Rect& rect, int along, std::vector<RectRoot>& roots);
-  bool prove_along(const NearAtoms& atoms, const LocalModel& model, int along, int sign, int depth) const;
+  bool pair_roots(const Rect& rect, const Direction& along, std::vector<RectRoot>& roots);
+  bool pair_along_slant(const Rect& rect, const LocalModel& model, std::vector<RectRoot>& roots);
+  bool prove_along(const NearAtoms& atoms, const LocalModel& model, const Direction& along, int depth);
   void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
   std::vector<RectRoot> cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
@@ -151,7 +149,10 @@ class FaceTracer {
   LocalAtoms* around_ = nullptr;
   bool is_plain_ = false;
   int axis_ = 0;
+  unsigned fold_axes_ = 0;
   Rect face_;
+  Vec3 refuting_gradient_{};  ///< in the part that ended the last proof that failed
+  GradientCone cone_;
   std::vector<TracePoint> points_;
   std::vector<Piece> pieces_;
   std::vector<Chain> chains_;

@@ -22,19 +22,25 @@ std::string refute(const CellCertificate& certificate, const ExactField& exact, 
     const bool one_side = std::all_of(inside.begin(), inside.end(), [&](bool b) { return b == inside[0]; });
     return one_side ? "" : "an excluded cell has a change of sign";
   }
-  // Along the axis: from outside to inside where phi grows, and never back.
-  const int axis = certificate.axis;
-  std::size_t stride = 1;
-  for (int k = 2; k > axis; --k) stride *= static_cast<std::size_t>(samples);
+  // Along the direction: from outside to inside where phi grows, and never back.
+  const auto [axis, sign, slant] = certificate.direction;
+  const Vec3 along = certificate.direction.vector();
+  const double step = (box.hi[axis] - box.lo[axis]) / (samples - 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i][axis] == box.hi[axis]) continue;
-    const std::size_t next = i + stride;
-    if (inside[i] == inside[next]) continue;
-    if (inside[next] != (certificate.sign > 0)) return "the surface is crossed against the certificate";
-    const Vec3 on = inside[i] ? surface_between(exact, points[i], points[next])
-                              : surface_between(exact, points[next], points[i]);
-    const double slope = static_cast<double>(exact.gradient(on)[axis]);
-    if (slope * certificate.sign <= 0.0) return "the slope on the surface is against the certificate";
+    Vec3 next = points[i];
+    bool in_box = true;
+    for (int k = 0; k < 3; ++k) {
+      next[k] += step * along[k];
+      in_box = in_box && next[k] >= box.lo[k] && next[k] <= box.hi[k];
+    }
+    if (!in_box) continue;
+    const bool next_inside = exact.psi(next) >= 0.0L;
+    if (inside[i] == next_inside) continue;
+    if (next_inside != (sign > 0)) return "the surface is crossed against the certificate";
+    const Vec3 on = inside[i] ? surface_between(exact, points[i], next) : surface_between(exact, next, points[i]);
+    const auto gradient = exact.gradient(on);
+    const double slope = static_cast<double>(gradient[0] * along[0] + gradient[1] * along[1] + gradient[2] * along[2]);
+    if (slope * sign <= 0.0) return "the slope on the surface is against the certificate";
   }
   return {};
 }
@@ -52,24 +58,26 @@ TEST_CASE("no certificate is refuted by a dense look at its cell") {
   const std::uint64_t seed = 42;
   CAPTURE(seed);
   Random random(seed);
-  std::size_t excluded = 0, monotone = 0, uncertified = 0;
+  std::size_t excluded = 0, monotone = 0, slanted = 0, uncertified = 0;
   for (int cloud = 0; cloud < 20; ++cloud) {
     const double decay = random.logarithmic(0.3, 3.0), isovalue = random.logarithmic(0.5, 2.0);
     const std::vector<Atom> atoms = random_cloud(random, {12, 6.0, 0.8, 2.2, 0.1});
     const GaussianField field(atoms, decay, isovalue);
     const ExactField exact(atoms, decay, isovalue);
-    for (int i = 0; i < 60; ++i) {
-      const Box box = box_around(random_point(random, box_around({0, 0, 0}, 5.0)), random.logarithmic(0.05, 1.0));
+    for (int i = 0; i < 100; ++i) {
+      const Box box = box_around(random_point(random, box_around({0, 0, 0}, 5.0)), random.logarithmic(0.05, 2.0));
       const CellCertificate certificate = certify(field, box, 3);
       excluded += certificate.kind == Kind::kExcluded;
       monotone += certificate.kind == Kind::kMonotone;
       uncertified += certificate.kind == Kind::kUncertified;
-      CAPTURE(decay, isovalue, certificate.axis, certificate.sign);
+      slanted += certificate.direction.is_slanted();
+      CAPTURE(decay, isovalue, int(certificate.direction.axis), int(certificate.direction.sign));
       REQUIRE(refute(certificate, exact, box, 9) == "");
     }
   }
   CHECK(excluded > 100);
   CHECK(monotone > 100);
+  CHECK(slanted > 5);
   CHECK(uncertified > 0);
 }
 
@@ -97,13 +105,24 @@ TEST_CASE("on a sphere the axis of the certificate is one that the sphere is sin
   const Box top{{-0.3, -0.3, 1.8}, {0.3, 0.3, 2.4}};
   const CellCertificate certificate = certify(field, top, 3);
   CHECK(certificate.kind == Kind::kMonotone);
-  CHECK(certificate.axis == 2);
-  CHECK(certificate.sign == -1);
-  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).axis == 1);
-  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).sign == 1);
+  CHECK(certificate.direction.axis == 2);
+  CHECK(certificate.direction.sign == -1);
+  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).direction.axis == 1);
+  CHECK(certify(field, {{0.5, -2.4, -0.3}, {1.1, -1.8, 0.3}}, 3).direction.sign == 1);
   CHECK(certify(field, box_around({0, 0, 0}, 0.5), 3).kind == Kind::kExcluded);
   CHECK(certify(field, box_around({4, 0, 0}, 0.5), 3).kind == Kind::kExcluded);
   CHECK(certify(field, box_around({0, 0, 0}, 3.0), 4).kind == Kind::kUncertified);
+}
+
+TEST_CASE("where the surface bends round all axes, a slanted direction is found in the midst of its gradients") {
+  // The octant of a sphere round its corner: the gradient is along each of the axes somewhere, and a little beyond.
+  const GaussianField field({{0, 0, 0, 2.0, 0}}, 0.6, 1.0);
+  const CellCertificate certificate = certify(field, {{-0.2, -0.2, -0.2}, {2.1, 2.1, 2.1}}, 4);
+  CHECK(certificate.kind == Kind::kMonotone);
+  CHECK(certificate.single_axes == 0);
+  REQUIRE(certificate.direction.is_slanted());
+  const Vec3 along = certificate.direction.vector();
+  for (int k = 0; k < 3; ++k) CHECK(along[k] * certificate.direction.sign < 0.0);
 }
 
 TEST_CASE("a proof through sub-boxes finds the axis of a cell that bounds over the whole cell do not show") {
@@ -112,8 +131,8 @@ TEST_CASE("a proof through sub-boxes finds the axis of a cell that bounds over t
   CHECK(certify(field, upper_half, 0).kind == CellCertificate::Kind::kUncertified);
   const CellCertificate found = certify(field, upper_half, 8);
   CHECK(found.kind == CellCertificate::Kind::kMonotone);
-  CHECK(found.axis == 2);
-  CHECK(found.sign == -1);
+  CHECK(found.direction.axis == 2);
+  CHECK(found.direction.sign == -1);
 }
 
 TEST_CASE("walking bricks finds every cell that the surface passes through, and each once") {

@@ -44,6 +44,21 @@ std::vector<Vec3> points_of(Random& random, const Box& part) {
   return points;
 }
 
+/// The axes, and some directions aslant.
+std::vector<Direction> some_directions(Random& random) {
+  std::vector<Direction> directions = {along_axis(0), along_axis(1), along_axis(2)};
+  const auto slant = [&] {
+    return static_cast<std::int8_t>(random.integer(-Direction::kSlantParts, Direction::kSlantParts));
+  };
+  for (int axis = 0; axis < 3; ++axis) directions.push_back({static_cast<std::int8_t>(axis), 1, {slant(), slant()}});
+  return directions;
+}
+
+double along(const std::array<long double, 3>& gradient, const Direction& direction) {
+  const Vec3 v = direction.vector();
+  return static_cast<double>(gradient[0] * v[0] + gradient[1] * v[1] + gradient[2] * v[2]);
+}
+
 /// Widths of value() over boxes around p, each half as large as the one before, and by how much they exceed the
 /// width of the exact values there.
 struct Widths {
@@ -107,7 +122,7 @@ TEST_CASE("slope() has the sign of the exact slope wherever the surface is") {
   const std::uint64_t seed = 32;
   CAPTURE(seed);
   Random random(seed);
-  std::size_t claims = 0, points = 0;
+  std::size_t claims = 0, slanted_claims = 0, points = 0;
   for (const FieldSample& sample : field_samples(seed)) {
     CAPTURE(sample.what);
     for (const double decay : kDecays) {
@@ -122,14 +137,15 @@ TEST_CASE("slope() has the sign of the exact slope wherever the surface is") {
         const LocalModel::View view = model.over(part);
         std::vector<Vec3> inside, outside;
         for (const Vec3& p : points_of(random, part)) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
-        for (int axis = 0; axis < 3; ++axis) {
-          const Range slope = view.slope(axis);
+        for (const Direction& direction : some_directions(random)) {
+          const Range slope = view.slope(direction);
           const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
           if (sign == 0) continue;
           ++claims;
+          slanted_claims += direction.is_slanted();
           for (std::size_t n = 0; n < std::min({inside.size(), outside.size(), std::size_t{10}}); ++n) {
             const Vec3 on_surface = surface_between(exact, inside[n], outside[n]);
-            REQUIRE(static_cast<double>(exact.gradient(on_surface)[axis]) * sign > 0.0);
+            REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
             ++points;
           }
         }
@@ -137,6 +153,7 @@ TEST_CASE("slope() has the sign of the exact slope wherever the surface is") {
     }
   }
   CHECK(claims > 1000);
+  CHECK(slanted_claims > 500);
   CHECK(points > 5000);
 }
 
@@ -156,12 +173,12 @@ TEST_CASE("without atoms left out slope() holds everywhere in the box, surface o
         field.collect_near(box, near, 1e9);
         const LocalModel model(near, decay, box);
         const LocalModel::View view = model.over(part);
-        for (int axis = 0; axis < 3; ++axis) {
-          const Range slope = view.slope(axis);
+        for (const Direction& direction : some_directions(random)) {
+          const Range slope = view.slope(direction);
           const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
           claims += sign != 0;
           for (const Vec3& p : points_of(random, part)) {
-            if (sign != 0) REQUIRE(static_cast<double>(exact.gradient(p)[axis]) * sign > 0.0);
+            if (sign != 0) REQUIRE(along(exact.gradient(p), direction) * sign > 0.0);
           }
         }
       }

@@ -26,10 +26,10 @@ Loop loop_of(const std::vector<Vec3>& places, std::uint32_t first) {
   return loop;
 }
 
-PatchFacts triangulate(const std::vector<Loop>& loops, int axis = 2, int sign = -1) {
+PatchFacts triangulate(const std::vector<Loop>& loops, const Direction& direction = along_axis(2, -1)) {
   const GaussianField field(kFlat, 0.6, 1.0);
   PatchTriangulator triangulator(field);
-  const Patch& patch = triangulator.triangulate(kLo, kHi, axis, sign, loops);
+  const Patch& patch = triangulator.triangulate(kLo, kHi, direction, loops);
   const PatchFacts facts = check_patch(patch, loops);
   std::map<std::uint32_t, std::uint32_t> number;
   const TriangleMesh mesh = patch_mesh(patch, loops, number);
@@ -108,7 +108,7 @@ TEST_CASE("a loop all in one face needs a point inside the cell") {
     }
     const std::vector<Loop> loops = {loop_of(places, 0)};
     PatchTriangulator triangulator(field);
-    const Patch& patch = triangulator.triangulate(kLo, kHi, 2, -1, loops);
+    const Patch& patch = triangulator.triangulate(kLo, kHi, along_axis(2, -1), loops);
     const PatchFacts facts = check_patch(patch, loops);
     CHECK(facts.chi == 1);
     REQUIRE(patch.points.size() == 1);
@@ -121,7 +121,7 @@ TEST_CASE("loops that are no boundary of a surface over the square are refused")
   const GaussianField field(kFlat, 0.6, 1.0);
   PatchTriangulator triangulator(field);
   const auto complete = [&](const std::vector<Loop>& loops) {
-    return triangulator.triangulate(kLo, kHi, 2, -1, loops).complete;
+    return triangulator.triangulate(kLo, kHi, along_axis(2, -1), loops).complete;
   };
   CHECK(complete({loop_of(kSquare, 0)}));
   CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {1, 1, 0.5}}, 0)}));                            // two corners
@@ -153,7 +153,7 @@ TEST_CASE("the same loops along every axis and in both directions") {
       }
       PatchTriangulator triangulator(field);
       const std::vector<Loop> loops = {loop};
-      const Patch& patch = triangulator.triangulate(kLo, kHi, axis, sign, loops);
+      const Patch& patch = triangulator.triangulate(kLo, kHi, along_axis(axis, sign), loops);
       CHECK(check_patch(patch, loops).triangles == 2);
       for (const Triangle& t : patch.triangles) {
         CHECK(normal_cosine(loop[t[0]].point, loop[t[1]].point, loop[t[2]].point, loop[0].point.normal) > 0.99);
@@ -166,7 +166,7 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
   const std::uint64_t seed = 72;
   CAPTURE(seed);
   Random random(seed);
-  std::size_t patches = 0, refused = 0, several_loops = 0, with_points = 0;
+  std::size_t patches = 0, refused = 0, several_loops = 0, slanted = 0, with_points = 0;
   for (int cloud = 0; cloud < 250; ++cloud) {
     CAPTURE(cloud);
     const double decay = random.logarithmic(0.3, 6.0);
@@ -186,7 +186,7 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
       if (loops.empty()) continue;
       PatchTriangulator triangulator(field);
       const Patch& patch = triangulator.triangulate(lattice.point(key.lo), lattice.point(cell_hi(key)),
-                                                    certificate.axis, certificate.sign, loops);
+                                                    certificate.direction, loops);
       if (!patch.complete) {  // the cell would be split
         ++refused;
         continue;
@@ -195,11 +195,12 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
       CHECK(facts.chi <= static_cast<int>(loops.size()));
       for (const SurfacePoint& p : patch.points) {
         const Vec3 at = to_angstrom(p.position);
-        const auto slope = std::abs(exact.gradient(at)[certificate.axis]);
+        const auto slope = std::abs(exact.gradient(at)[certificate.direction.axis]);
         CHECK(static_cast<double>(std::abs(exact.psi(at)) / slope) < 2e-9);
         CHECK(faces_of(p.position, lattice.point(key.lo), lattice.point(cell_hi(key))) == 0);
       }
       ++patches;
+      slanted += certificate.direction.is_slanted();
       several_loops += loops.size() > 1;
       with_points += !patch.points.empty();
     }
@@ -207,5 +208,6 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
   CHECK(patches > 300);
   CHECK(refused < patches / 50);
   CHECK(several_loops > 20);
+  CHECK(slanted > 20);
   CHECK(with_points > 3);
 }

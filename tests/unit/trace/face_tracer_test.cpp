@@ -174,6 +174,23 @@ TEST_CASE("a corner of a face cut off by a sphere is one chord, with the molecul
   }
 }
 
+TEST_CASE("arcs that turn past both axes of the face are chords from side to side") {
+  const std::vector<Atom> atoms = {{0, 0, 0, 2.0, 0}};
+  const GaussianField field(atoms, 0.6, 1.0);
+  const ExactField exact(atoms, 0.6, 1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const auto& [a_lo, a_hi, b_lo, b_hi] : {std::array{-0.5, 2.5, -0.6, 2.5}, std::array{-2.5, 0.5, -0.6, 2.5},
+                                                 std::array{-0.5, 2.5, -2.5, 0.6}, std::array{-2.5, 0.5, -2.5, 0.6}}) {
+      CAPTURE(axis, a_lo, b_lo);
+      const Face face = face_at(axis, 0.3, a_lo, a_hi, b_lo, b_hi);
+      const Traced traced = trace(field, face);
+      check_curves(traced, face, exact);
+      CHECK(traced.curves.points.empty());
+      CHECK(traced.curves.links.size() == 1);
+    }
+  }
+}
+
 TEST_CASE("an arc back to its own edge keeps its turning point") {
   const std::vector<Atom> atoms = {{0, 0, 0, 2.0, 0}};
   const GaussianField field(atoms, 0.6, 1.0);
