@@ -11,14 +11,31 @@
 
 namespace gaussmesh {
 
+/// Whether a half-open box holds a point.
+inline bool is_in(const Box& box, const Vec3& p) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(p[k] >= box.lo[k] && p[k] < box.hi[k])) return false;
+  }
+  return true;
+}
+
+/// Keeps the first entries of an array alone and makes room for others behind them, `count` in all: where few are kept,
+/// what they need is given back first.
+template <typename T>
+void resize_beyond(std::vector<T>& array, std::size_t kept, std::size_t count) {
+  array.resize(kept);
+  if (kept < array.capacity() / 2) array.shrink_to_fit();
+  array.reserve(count);
+  array.resize(count);
+}
+
 /// What is known of vertices, as arrays that are numbered alike.
 struct MeshVertices {
   std::vector<Vec3> at;  ///< A, whole units
   std::vector<Normal> normal;
-  std::vector<float> size;               ///< wanted edge (A)
-  std::vector<float> curvature;          ///< larger principal one (1/A) in absolute value; negative: not yet known
-  std::vector<float> refinement;         ///< factor of the size where neighbouring triangles turned too far
-  std::vector<std::uint8_t> is_settled;  ///< nothing round it is bad, and nothing has changed there since that was seen
+  std::vector<float> size;        ///< wanted edge (A)
+  std::vector<float> curvature;   ///< larger principal one (1/A) in absolute value; negative: not yet known
+  std::vector<float> refinement;  ///< factor of the size where neighbouring triangles turned too far
 
   void reserve(std::size_t count) {
     at.reserve(count);
@@ -26,7 +43,6 @@ struct MeshVertices {
     size.reserve(count);
     curvature.reserve(count);
     refinement.reserve(count);
-    is_settled.reserve(count);
   }
   void resize(std::size_t count) {
     at.resize(count);
@@ -34,7 +50,6 @@ struct MeshVertices {
     size.resize(count);
     curvature.resize(count);
     refinement.resize(count);
-    is_settled.resize(count);
   }
   void append(const MeshVertices& from, std::size_t v) {
     at.push_back(from.at[v]);
@@ -42,7 +57,21 @@ struct MeshVertices {
     size.push_back(from.size[v]);
     curvature.push_back(from.curvature[v]);
     refinement.push_back(from.refinement[v]);
-    is_settled.push_back(from.is_settled[v]);
+  }
+  /// Keeps the first ones alone and makes room for others behind them, `count` in all.
+  void resize_beyond(std::size_t kept, std::size_t count) {
+    gaussmesh::resize_beyond(at, kept, count);
+    gaussmesh::resize_beyond(normal, kept, count);
+    gaussmesh::resize_beyond(size, kept, count);
+    gaussmesh::resize_beyond(curvature, kept, count);
+    gaussmesh::resize_beyond(refinement, kept, count);
+  }
+  void move(std::size_t from, std::size_t to) {
+    at[to] = at[from];
+    normal[to] = normal[from];
+    size[to] = size[from];
+    curvature[to] = curvature[from];
+    refinement[to] = refinement[from];
   }
   /// Overwrites those from `first` on by all of `from`.
   void replace(std::size_t first, const MeshVertices& from) {
@@ -51,7 +80,6 @@ struct MeshVertices {
     std::copy(from.size.begin(), from.size.end(), size.begin() + first);
     std::copy(from.curvature.begin(), from.curvature.end(), curvature.begin() + first);
     std::copy(from.refinement.begin(), from.refinement.end(), refinement.begin() + first);
-    std::copy(from.is_settled.begin(), from.is_settled.end(), is_settled.begin() + first);
   }
 };
 
@@ -67,18 +95,23 @@ struct BlockMesh : MeshVertices {
     at[v] = place.at;
     normal[v] = place.normal;
   }
-  bool contains(const Vec3& p) const {
-    for (int k = 0; k < 3; ++k) {
-      if (!(p[k] >= box.lo[k] && p[k] < box.hi[k])) return false;
-    }
-    return true;
-  }
+  bool contains(const Vec3& p) const { return is_in(box, p); }
 };
 
 /// Normal of a triangle, as long as its doubled area.
-inline Vec3 area_normal(const BlockMesh& m, std::uint32_t t) {
-  const Triangle v = m.connectivity.triangle(t);
-  return cross(m.at[v[1]] - m.at[v[0]], m.at[v[2]] - m.at[v[0]]);
+inline Vec3 area_normal(const MeshVertices& m, const Triangle& t) {
+  return cross(m.at[t[1]] - m.at[t[0]], m.at[t[2]] - m.at[t[0]]);
+}
+inline Vec3 area_normal(const BlockMesh& m, std::uint32_t t) { return area_normal(m, m.connectivity.triangle(t)); }
+
+/// Neighbours turn against each other by less than this (degrees).
+inline constexpr double kSharpestTurn = 58.7;
+
+/// Whether triangles with these normals, of any length, turn farther.
+inline bool turn_sharply(const Vec3& m, const Vec3& n) {
+  constexpr double kCosine = 0.52;
+  const double cosine = dot(m, n);
+  return !(cosine > 0.0 && cosine * cosine >= kCosine * kCosine * dot(m, m) * dot(n, n));
 }
 
 /// What decides whether a triangle is good: its smallest angle, and how far it is turned from the field.
@@ -107,7 +140,7 @@ inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3
   return result;
 }
 
-inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+inline TriangleQuality triangle_quality(const MeshVertices& m, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return triangle_quality(m.at[a], m.at[b], m.at[c], m.normal[a], m.normal[b], m.normal[c]);
 }
 
@@ -117,14 +150,16 @@ inline TriangleQuality triangle_quality(const BlockMesh& m, std::uint32_t t) {
 }
 
 /// Whether a triangle has no angle with a smaller sine, and is turned by no more from the field; without roots.
-inline bool is_at_least(const BlockMesh& m, std::uint32_t t, const TriangleQuality& limit) {
-  const Triangle v = m.connectivity.triangle(t);
+inline bool is_at_least(const MeshVertices& m, const Triangle& v, const TriangleQuality& limit) {
   const Vec3 a = m.at[v[1]] - m.at[v[0]], b = m.at[v[2]] - m.at[v[0]], c = m.at[v[2]] - m.at[v[1]];
   const Vec3 n = cross(a, b);
   const double nn = dot(n, n), aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
   const double least = std::min({dot(n, m.normal[v[0]]), dot(n, m.normal[v[1]]), dot(n, m.normal[v[2]])});
   return nn > 0.0 && nn * std::min({aa, bb, cc}) >= limit.min_sine * limit.min_sine * aa * bb * cc && least > 0.0 &&
          least * least >= limit.normal_cosine * limit.normal_cosine * nn;
+}
+inline bool is_at_least(const BlockMesh& m, std::uint32_t t, const TriangleQuality& limit) {
+  return is_at_least(m, m.connectivity.triangle(t), limit);
 }
 
 /// Of the triangles round an inner vertex.

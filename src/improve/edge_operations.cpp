@@ -122,7 +122,6 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   mesh.size[m] = 0.5f * (mesh.size[a] + mesh.size[b]);
   mesh.curvature[m] = -1.0f;
   mesh.refinement[m] = std::min(mesh.refinement[a], mesh.refinement[b]);
-  mesh.is_settled[m] = 0;
   mesh.is_active.push_back(1);
   mesh.is_guarded.push_back(mesh.is_guarded[a] | mesh.is_guarded[b] | mesh.is_guarded[c.opposite(h)] |
                             mesh.is_guarded[c.opposite(g)]);

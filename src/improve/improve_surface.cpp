@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/parallel.h"
+#include "improve/bad_places.h"
 #include "improve/edge_operations.h"
 #include "improve/mesh_blocks.h"
 #include "improve/relax.h"
@@ -28,35 +29,26 @@ constexpr int kSweepsForLargest = 2;  ///< after each of so many it is found ane
 /// Where triangles are much too large they are first cut to size.
 constexpr int kMostHalvings = 4;
 
-constexpr double kLeastAngle = 31.0;  // degrees; a little above what is promised
 constexpr int kRepairRounds = 3;
-
-/// How much smaller triangles become where neighbours turn too far: gently while all move, faster where little time
-/// is left.
-constexpr float kSmaller = 0.8f;
-constexpr float kSmallerAtLast = 0.65f;
 
 /// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that
 /// follow each other: a place near planes of all three axes in three of them is free in the fourth.
 struct Sweep {
   int rounds = 0;  ///< of splits, collapses, flips and relaxation
   bool repairs = false;
-  bool settles = false;   ///< leaves the vertices exactly on the surface; extra ones do so at every step
-  bool is_extra = false;  ///< only where a triangle is bad or neighbours turn sharply
+  bool settles = false;  ///< leaves the vertices exactly on the surface
 };
-constexpr Sweep kSweeps[] = {
-    {3, false, false, false}, {3, false, false, false}, {3, true, false, false}, {2, true, true, false}};
+constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follows them until all vertices are settled: one that lies at planes of each axis in three sweeps is free in the
-/// fourth.
-constexpr Sweep kExtraSweep{1, true, false, true};
-constexpr int kMostExtraSweeps = 12;
+/// Follow them: in boxes round what is bad, as often as it takes.
+constexpr double kHalfEdgeOfBoxes = 5.0;  ///< spacings
+constexpr int kRoundsInBoxes = 3;
+constexpr int kMostSweepsOfBoxes = 12;
 
-/// How long it takes, for those who wait: the first has the most to do, extra ones touch little.
-constexpr double effort(const Sweep& sweep) {
-  return sweep.is_extra ? 0.2 : sweep.rounds * (&sweep == &kSweeps[0] ? 3 : 1);
-}
+/// How long it takes, for those who wait: the first has the most to do, those of boxes touch little.
+constexpr double effort(const Sweep& sweep) { return sweep.rounds * (&sweep == &kSweeps[0] ? 3 : 1); }
+constexpr double kEffortInBoxes = 1.0;
 
 WholeMesh start_with(SurfaceMesh traced, double spacing) {
   WholeMesh mesh;
@@ -69,7 +61,6 @@ WholeMesh start_with(SurfaceMesh traced, double spacing) {
   mesh.size.assign(mesh.at.size(), static_cast<float>(spacing));
   mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
-  mesh.is_settled.assign(mesh.at.size(), 0);
   return mesh;
 }
 
@@ -81,67 +72,69 @@ double mean_edge(const WholeMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// Makes only those vertices active that are near sharp edges or bad triangles, and says that those far from both are
-/// settled. @return whether any are active
+/// Makes only those vertices active that are near sharp edges or bad triangles. @return whether there are any
 bool activate_bad_places(BlockMesh& mesh) {
   constexpr int kRings = 4;
-  // Triangles change this far round active vertices: a collapse takes a neighbour away.
-  constexpr int kRingsThatChange = 2;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
-  std::vector<std::uint8_t> may_change(mesh.at.size(), 0);
-  std::vector<std::uint32_t> front = refine_sharp_edges(mesh, kSmallerAtLast);
+  std::vector<std::uint32_t> front = refine_sharp_edges(mesh);
   const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
   for (std::uint32_t t = 0; t < c.triangles(); ++t) {
-    if (triangle_quality(mesh, t).min_sine >= least_sine) continue;
+    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= least_sine) continue;
     for (const std::uint32_t v : c.triangle(t)) front.push_back(v);
   }
   const bool any = !front.empty();
-  for (const std::uint32_t v : front) mesh.is_active[v] = may_change[v] = 1;
-  for (int ring = 0; ring < kRings + kRingsThatChange; ++ring) {
+  for (const std::uint32_t v : front) mesh.is_active[v] = 1;
+  for (int ring = 0; ring < kRings; ++ring) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t v : front) {
       if (!c.is_inner(v)) continue;
       c.visit_star(v, [&](std::uint32_t h) {
-        if (may_change[c.to(h)]) return;
-        may_change[c.to(h)] = 1;
-        if (ring < kRings) mesh.is_active[c.to(h)] = 1;
+        if (mesh.is_active[c.to(h)]) return;
+        mesh.is_active[c.to(h)] = 1;
         next.push_back(c.to(h));
       });
     }
     front = std::move(next);
   }
-  for (std::uint32_t v = 0; v < c.vertices(); ++v) {
-    if (may_change[v]) {
-      mesh.is_settled[v] = 0;
-    } else if (c.is_inner(v)) {
-      bool all_inner = true;  // edges that end on the boundary have not been looked at
-      c.visit_star(v, [&](std::uint32_t h) { all_inner = all_inner && c.is_inner(c.to(h)); });
-      if (all_inner) mesh.is_settled[v] = 1;
-    }
-  }
   return any;
+}
+
+void run_round(BlockMesh& mesh, SheetGuard& guard, BlockField& field, Accuracy accuracy) {
+  split_long_edges(mesh, guard, field, kSplitFactor, accuracy);
+  collapse_short_edges(mesh, guard, kCollapseFactor);
+  flip_edges(mesh, guard);
+  even_out_valences(mesh, guard);
+  relax_vertices(mesh, guard, field, accuracy);
+}
+
+void cut_to_size(BlockMesh& mesh, SheetGuard& guard, BlockField& field, Accuracy accuracy) {
+  for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor, accuracy) > 0; ++i) {
+  }
 }
 
 void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding,
                    const Sweep& sweep) {
-  if (sweep.is_extra && !activate_bad_places(mesh)) return;
-  const Accuracy accuracy = sweep.is_extra ? Accuracy::kExact : Accuracy::kRough;
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
   SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
-  for (int i = 0; i < kMostHalvings && split_long_edges(mesh, guard, field, 2.0 * kSplitFactor, accuracy) > 0; ++i) {
-  }
-  for (int round = 0; round < sweep.rounds; ++round) {
-    split_long_edges(mesh, guard, field, kSplitFactor, accuracy);
-    collapse_short_edges(mesh, guard, kCollapseFactor);
-    flip_edges(mesh, guard);
-    even_out_valences(mesh, guard);
-    relax_vertices(mesh, guard, field, accuracy);
-  }
+  cut_to_size(mesh, guard, field, Accuracy::kRough);
+  for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
-  if (!sweep.is_extra) refine_sharp_edges(mesh, kSmaller);
+  refine_sharp_edges(mesh);
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+}
+
+/// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
+void mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding) {
+  BlockField field(whole_field, mesh.box);
+  for (int round = 0; round < kRoundsInBoxes && activate_bad_places(mesh); ++round) {
+    find_wanted_sizes(mesh, field, targets);
+    SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
+    cut_to_size(mesh, guard, field, Accuracy::kExact);
+    run_round(mesh, guard, field, Accuracy::kExact);
+    repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+  }
 }
 
 SurfaceMesh finish(WholeMesh mesh) {
@@ -164,39 +157,36 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   const double edge = kBlockEdge * targets.spacing;
   SizeTargets now = targets;
   now.largest = targets.spacing;
-  int number = 0;
-  double all = kMostExtraSweeps * effort(kExtraSweep), done = 0.0;
+  double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
   for (const Sweep& sweep : kSweeps) all += effort(sweep);
-  const auto run = [&](const Sweep& sweep) {
-    const double shift = edge * number++ / kSweepsWithOtherPlanes;
-    MeshBlocks blocks(std::move(mesh), edge, {shift, shift, shift});
+  const auto run = [&](MeshBlocks blocks, double effort, const auto& work) {
     std::atomic<int> blocks_done = 0;
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
-      if (sweep.is_extra && blocks.is_settled(b)) {
-        blocks.keep(b);
-      } else {
-        BlockMesh block = blocks.extract(b);
-        improve_block(block, field, now, guarding, sweep);
-        blocks.store(b, std::move(block));
-      }
-      if (on_progress)
-        on_progress((done + effort(sweep) * ++blocks_done / static_cast<double>(blocks.size())) / all);
+      BlockMesh block = blocks.extract(b);
+      work(block);
+      blocks.store(b, std::move(block));
+      if (on_progress) on_progress((done + effort * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
-    mesh = std::move(blocks).join(threads);
-    done += effort(sweep);
+    done += effort;
+    return std::move(blocks).join(threads);
   };
+  int number = 0;
   for (const Sweep& sweep : kSweeps) {
-    run(sweep);
+    const double shift = edge * number++ / kSweepsWithOtherPlanes;
+    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}), effort(sweep),
+               [&](BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
-  const auto is_settled = [](std::uint8_t settled) { return settled != 0; };
-  for (int i = 0; i < kMostExtraSweeps; ++i) {
-    run(kExtraSweep);
-    if (std::all_of(mesh.is_settled.begin(), mesh.is_settled.end(), is_settled)) break;
+  const double half_edge = kHalfEdgeOfBoxes * targets.spacing;
+  for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
+    std::vector<Box> boxes = boxes_round(mesh, find_bad_vertices(mesh, threads), half_edge);
+    if (boxes.empty()) break;
+    mesh = run(MeshBlocks(std::move(mesh), std::move(boxes), 2.0 * half_edge), kEffortInBoxes,
+               [&](BlockMesh& block) { mend_block(block, field, now, guarding); });
   }
   if (on_progress) on_progress(1.0);
   return finish(std::move(mesh));

@@ -27,8 +27,8 @@ enum class Guarding {
 /// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt
 /// 2004], then repairs of the worst triangles one by one. Every vertex stays on the surface; topology and
 /// orientation are kept by vetoes on every operation, and triangles are kept apart by exact signs. The work is done
-/// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h): the same bits for any number of
-/// threads.
+/// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h), and then in boxes round triangles that
+/// are still bad (bad_places.h): the same bits for any number of threads.
 ///
 /// @param traced   closed, oriented, embedded
 /// @param targets  spacing at most kLargestSpacing; `largest` is found here

@@ -1,36 +1,12 @@
 #include "improve/mesh_blocks.h"
 
 #include <numeric>
-#include <unordered_map>
 
 #include "core/parallel.h"
 #include "core/sort_and_unite.h"
 
 namespace gaussmesh {
 namespace {
-
-using Cube = std::array<std::int64_t, 3>;
-
-struct CubeHash {
-  std::size_t operator()(const Cube& cube) const {
-    std::uint64_t h = 0;
-    for (const std::int64_t i : cube) h = (h ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ull + (h >> 29);
-    return h ^ (h >> 32);
-  }
-};
-
-/// Planes of one axis; cube i holds the coordinates in [plane(i), plane(i + 1)).
-struct Planes {
-  double edge, shift;
-
-  double plane(std::int64_t i) const { return shift + static_cast<double>(i) * edge; }
-  std::int64_t cube_of(double x) const {
-    auto i = static_cast<std::int64_t>(std::floor((x - shift) / edge));
-    while (x < plane(i)) --i;
-    while (x >= plane(i + 1)) ++i;
-    return i;
-  }
-};
 
 /// Lists by block, from pairs of block and member in the order of the members.
 void fill_lists(const std::vector<std::array<std::uint32_t, 2>>& pairs, std::size_t blocks,
@@ -46,76 +22,96 @@ void fill_lists(const std::vector<std::array<std::uint32_t, 2>>& pairs, std::siz
 }  // namespace
 
 MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift)
-    : mesh_(std::move(whole)), block_of_(mesh_.at.size()), local_(mesh_.at.size()) {
-  const WholeMesh& mesh = mesh_;
-  const std::array<Planes, 3> planes{Planes{edge, shift[0]}, {edge, shift[1]}, {edge, shift[2]}};
-  std::unordered_map<Cube, std::uint32_t, CubeHash> blocks;
-  std::vector<std::uint32_t> counts;
-  Cube last{};
-  std::uint32_t last_block = HalfEdgeMesh::kNone;
-  for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
-    const Vec3& p = mesh.at[v];
-    const Cube cube{planes[0].cube_of(p[0]), planes[1].cube_of(p[1]), planes[2].cube_of(p[2])};
-    if (last_block == HalfEdgeMesh::kNone || cube != last) {
-      const auto [it, is_new] = blocks.try_emplace(cube, static_cast<std::uint32_t>(boxes_.size()));
-      if (is_new) {
-        Box box;
-        for (int k = 0; k < 3; ++k) {
-          box.lo[k] = planes[k].plane(cube[k]);
-          box.hi[k] = planes[k].plane(cube[k] + 1);
-        }
-        boxes_.push_back(box);
-        counts.push_back(0);
-      }
-      last = cube;
-      last_block = it->second;
+    : mesh_(std::move(whole)), block_of_(mesh_.at.size()) {
+  BoxGrid grid(edge, shift);
+  BoxGrid::Cube last{};
+  for (std::uint32_t v = 0; v < mesh_.at.size(); ++v) {
+    const BoxGrid::Cube cube = grid.cube_of(mesh_.at[v]);
+    if (v > 0 && cube == last) {
+      block_of_[v] = block_of_[v - 1];
+      continue;
     }
-    block_of_[v] = last_block;
-    local_[v] = counts[last_block]++;
+    last = cube;
+    std::vector<std::uint32_t>& blocks = grid.numbers_in(cube);
+    if (blocks.empty()) {
+      blocks.push_back(static_cast<std::uint32_t>(boxes_.size()));
+      boxes_.push_back(grid.box_of(cube));
+    }
+    block_of_[v] = blocks[0];
   }
-  first_vertex_.assign(boxes_.size() + 1, 0);
-  for (std::size_t b = 0; b < boxes_.size(); ++b) first_vertex_[b + 1] = first_vertex_[b] + counts[b];
-  vertices_.resize(mesh.at.size());
-  for (std::uint32_t v = 0; v < mesh.at.size(); ++v) vertices_[first_vertex_[block_of_[v]] + local_[v]] = v;
+  list_members();
+  list_reaching(grid);
+}
 
-  first_triangle_.assign(boxes_.size() + 1, 0);
+MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most)
+    : mesh_(std::move(whole)), boxes_(std::move(boxes)), block_of_(mesh_.at.size()) {
+  BoxGrid grid(most);
+  for (std::uint32_t b = 0; b < boxes_.size(); ++b) grid.add(boxes_[b], b);
+  for (std::uint32_t v = 0; v < mesh_.at.size(); ++v) {
+    block_of_[v] = static_cast<std::uint32_t>(boxes_.size());
+    grid.visit({mesh_.at[v], mesh_.at[v]}, [&](std::uint32_t b) {
+      if (is_in(boxes_[b], mesh_.at[v])) block_of_[v] = b;
+    });
+  }
+  list_members();
+  list_reaching(grid);
+}
+
+void MeshBlocks::list_members() {
+  const std::size_t slots = boxes_.size() + 1;
+  first_vertex_.assign(slots + 1, 0);
+  for (const std::uint32_t b : block_of_) ++first_vertex_[b + 1];
+  for (std::size_t b = 0; b < slots; ++b) first_vertex_[b + 1] += first_vertex_[b];
+  local_.resize(block_of_.size());
+  vertices_.resize(block_of_.size());
+  std::vector<std::uint32_t> fill(first_vertex_.begin(), first_vertex_.end() - 1);
+  for (std::uint32_t v = 0; v < block_of_.size(); ++v) {
+    const std::uint32_t b = block_of_[v], at = fill[b]++;
+    local_[v] = at - first_vertex_[b];
+    vertices_[at] = v;
+  }
   const auto is_between = [&](const Triangle& t) {
     return block_of_[t[0]] != block_of_[t[1]] || block_of_[t[0]] != block_of_[t[2]];
   };
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (is_between(mesh.triangles[t])) {
+  first_triangle_.assign(slots + 1, 0);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (is_between(mesh_.triangles[t])) {
       between_.push_back(t);
     } else {
-      ++first_triangle_[block_of_[mesh.triangles[t][0]] + 1];
+      ++first_triangle_[block_of_[mesh_.triangles[t][0]] + 1];
     }
   }
-  for (std::size_t b = 0; b < boxes_.size(); ++b) first_triangle_[b + 1] += first_triangle_[b];
+  for (std::size_t b = 0; b < slots; ++b) first_triangle_[b + 1] += first_triangle_[b];
   triangles_.resize(first_triangle_.back());
-  std::vector<std::uint32_t> fill(first_triangle_.begin(), first_triangle_.end() - 1);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!is_between(mesh.triangles[t])) triangles_[fill[block_of_[mesh.triangles[t][0]]]++] = t;
+  fill.assign(first_triangle_.begin(), first_triangle_.end() - 1);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!is_between(mesh_.triangles[t])) triangles_[fill[block_of_[mesh_.triangles[t][0]]]++] = t;
   }
-
-  std::vector<std::array<std::uint32_t, 2>> reaching;
-  for (const std::uint32_t t : between_) {
-    Cube lo, hi;
-    const Triangle& v = mesh.triangles[t];
-    for (int k = 0; k < 3; ++k) {
-      const auto [least, most] = std::minmax({mesh.at[v[0]][k], mesh.at[v[1]][k], mesh.at[v[2]][k]});
-      lo[k] = planes[k].cube_of(least);
-      hi[k] = planes[k].cube_of(most);
-    }
-    for (Cube c = lo; c[0] <= hi[0]; ++c[0]) {
-      for (c[1] = lo[1]; c[1] <= hi[1]; ++c[1]) {
-        for (c[2] = lo[2]; c[2] <= hi[2]; ++c[2]) {
-          const auto it = blocks.find(c);
-          if (it != blocks.end()) reaching.push_back({it->second, t});
-        }
-      }
-    }
-  }
-  fill_lists(reaching, boxes_.size(), first_fixed_, fixed_);
   stored_.resize(boxes_.size());
+}
+
+/// Lists the triangles of no block that reach into its box.
+void MeshBlocks::list_reaching(BoxGrid& grid) {
+  std::vector<std::array<std::uint32_t, 2>> reaching;
+  const auto list = [&](std::uint32_t t) {
+    Box box;
+    const Triangle& v = mesh_.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const auto [least, most] = std::minmax({mesh_.at[v[0]][k], mesh_.at[v[1]][k], mesh_.at[v[2]][k]});
+      box.lo[k] = least;
+      box.hi[k] = most;
+    }
+    const std::size_t first = reaching.size();
+    grid.visit(box, [&](std::uint32_t b) {
+      const auto is_listed = [&](const auto& pair) { return pair[0] == b; };
+      const auto begin = reaching.begin() + static_cast<std::ptrdiff_t>(first);
+      if (boxes_meet(box, boxes_[b]) && std::none_of(begin, reaching.end(), is_listed)) reaching.push_back({b, t});
+    });
+  };
+  for (const std::uint32_t t : between_) list(t);
+  const std::size_t rest = boxes_.size();
+  for (std::uint32_t i = first_triangle_[rest]; i < first_triangle_[rest + 1]; ++i) list(triangles_[i]);
+  fill_lists(reaching, boxes_.size(), first_fixed_, fixed_);
 }
 
 BlockMesh MeshBlocks::extract(std::size_t block) const {
@@ -157,27 +153,6 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
   return result;
 }
 
-bool MeshBlocks::is_settled(std::size_t block) const {
-  return std::all_of(vertices_.begin() + first_vertex_[block], vertices_.begin() + first_vertex_[block + 1],
-                     [&](std::uint32_t v) { return mesh_.is_settled[v] != 0; });
-}
-
-void MeshBlocks::keep(std::size_t block) {
-  Stored& stored = stored_[block];
-  const std::size_t count = first_vertex_[block + 1] - first_vertex_[block];
-  stored.number.resize(count);
-  std::iota(stored.number.begin(), stored.number.end(), 0u);
-  stored.part.reserve(count);
-  for (std::uint32_t i = first_vertex_[block]; i < first_vertex_[block + 1]; ++i) {
-    stored.part.append(mesh_, vertices_[i]);
-  }
-  stored.part.triangles.reserve(first_triangle_[block + 1] - first_triangle_[block]);
-  for (std::uint32_t i = first_triangle_[block]; i < first_triangle_[block + 1]; ++i) {
-    const Triangle& t = mesh_.triangles[triangles_[i]];
-    stored.part.triangles.push_back({local_[t[0]], local_[t[1]], local_[t[2]]});
-  }
-}
-
 void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
   const std::uint32_t own = first_vertex_[block + 1] - first_vertex_[block];
   const HalfEdgeMesh& c = worked.connectivity;
@@ -211,35 +186,41 @@ void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
 }
 
 WholeMesh MeshBlocks::join(int threads) && {
-  std::vector<std::uint32_t> first_vertex(size() + 1, 0), first_triangle(size() + 1, 0);
-  for (std::size_t b = 0; b < size(); ++b) {
-    first_vertex[b + 1] = first_vertex[b] + static_cast<std::uint32_t>(stored_[b].part.at.size());
-    first_triangle[b + 1] = first_triangle[b] + static_cast<std::uint32_t>(stored_[b].part.triangles.size());
+  const std::size_t rest = boxes_.size();
+  const std::uint32_t rest_vertices = first_vertex_[rest + 1] - first_vertex_[rest];
+  std::vector<std::uint32_t> first_vertex(1, rest_vertices);
+  for (const Stored& block : stored_) {
+    first_vertex.push_back(first_vertex.back() + static_cast<std::uint32_t>(block.part.at.size()));
   }
-  std::vector<Triangle> between;
-  between.reserve(between_.size());
-  for (const std::uint32_t t : between_) {
-    Triangle joined = mesh_.triangles[t];
-    for (std::uint32_t& v : joined) v = first_vertex[block_of_[v]] + stored_[block_of_[v]].number[local_[v]];
-    between.push_back(joined);
+  // The rest and the triangles between stay in the arrays that they are in, so that the room is not needed twice.
+  std::uint32_t kept = 0;
+  for (const Triangle& t : mesh_.triangles) {
+    if (block_of_[t[0]] != rest && block_of_[t[0]] == block_of_[t[1]] && block_of_[t[0]] == block_of_[t[2]]) continue;
+    Triangle renumbered = t;
+    for (std::uint32_t& v : renumbered) {
+      const std::uint32_t block = block_of_[v];
+      v = block == rest ? local_[v] : first_vertex[block] + stored_[block].number[local_[v]];
+    }
+    mesh_.triangles[kept++] = renumbered;
   }
-  mesh_ = {};
+  std::vector<std::uint32_t> first_triangle(1, kept);
+  for (const Stored& block : stored_) {
+    first_triangle.push_back(first_triangle.back() + static_cast<std::uint32_t>(block.part.triangles.size()));
+  }
+  for (std::uint32_t i = 0; i < rest_vertices; ++i) mesh_.move(vertices_[first_vertex_[rest] + i], i);
   for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_}) *list = std::vector<std::uint32_t>();
-
-  WholeMesh result;
-  result.resize(first_vertex.back());
-  result.triangles.resize(first_triangle.back() + between.size());
-  parallel_for(size(), threads, [&](std::size_t b) {
+  mesh_.resize_beyond(rest_vertices, first_vertex.back());
+  resize_beyond(mesh_.triangles, kept, first_triangle.back());
+  parallel_for(stored_.size(), threads, [&](std::size_t b) {
     WholeMesh& part = stored_[b].part;
-    result.replace(first_vertex[b], part);
+    mesh_.replace(first_vertex[b], part);
     std::uint32_t at = first_triangle[b];
     for (const Triangle& t : part.triangles) {
-      result.triangles[at++] = {t[0] + first_vertex[b], t[1] + first_vertex[b], t[2] + first_vertex[b]};
+      mesh_.triangles[at++] = {t[0] + first_vertex[b], t[1] + first_vertex[b], t[2] + first_vertex[b]};
     }
     part = {};
   });
-  std::copy(between.begin(), between.end(), result.triangles.begin() + first_triangle.back());
-  return result;
+  return std::move(mesh_);
 }
 
 }  // namespace gaussmesh

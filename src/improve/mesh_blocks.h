@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "improve/block_mesh.h"
+#include "improve/box_grid.h"
 
 namespace gaussmesh {
 
@@ -12,22 +13,24 @@ struct WholeMesh : MeshVertices {
   std::vector<Triangle> triangles;
 };
 
-/// The mesh, cut by the planes of a cubic grid.
+/// The mesh, cut into convex blocks that have no point in common.
 ///
-/// A triangle belongs to the block in which all its corners lie; those that cross a plane belong to none and stay
-/// as they are. Blocks are convex and keep their vertices, so triangles of two blocks can never meet, whatever is
-/// done within each: blocks may be worked on in any order, and on several threads, with the same result.
+/// A triangle belongs to the block in which all its corners lie; others belong to none and stay as they are. Blocks
+/// are convex and keep their vertices, so triangles of two blocks can never meet, whatever is done within each: blocks
+/// may be worked on in any order, and on several threads, with the same result.
 class MeshBlocks {
  public:
+  /// Cut by the planes of a cubic grid: blocks are the cubes with vertices, in the order of their first ones.
   /// @param edge   A, of the cubes: many times that of the triangles
   /// @param shift  a point where planes meet
-  /// Cost: O(n); blocks exist where vertices are. Memory: 9 bytes a triangle beside the mesh.
+  /// Cost: O(n). Memory: 9 bytes a triangle beside the mesh.
   MeshBlocks(WholeMesh mesh, double edge, const Vec3& shift);
 
-  std::size_t size() const { return boxes_.size(); }
+  /// The blocks are given: what is outside of all stays as it is.
+  /// @param boxes  without common points; none is larger than `most` (A) along any axis
+  MeshBlocks(WholeMesh mesh, std::vector<Box> boxes, double most);
 
-  /// Whether all vertices of a block are settled. Thread-safe.
-  bool is_settled(std::size_t block) const;
+  std::size_t size() const { return boxes_.size(); }
 
   /// One block to work on. Thread-safe.
   BlockMesh extract(std::size_t block) const;
@@ -35,11 +38,8 @@ class MeshBlocks {
   /// Keeps what became of a block. Thread-safe for different blocks.
   void store(std::size_t block, BlockMesh&& worked);
 
-  /// The same for a block that stays as it is.
-  void keep(std::size_t block);
-
-  /// The mesh of all stored blocks and of the triangles between them, blocks in the order of their first vertices.
-  /// All blocks have been stored. What was cut up is given back first: there are never more than two whole meshes.
+  /// The mesh of what is in no block and of all stored blocks, one after the other. All blocks have been stored. What was
+  /// cut up is given back first: there are never more than two whole meshes.
   WholeMesh join(int threads) &&;
 
  private:
@@ -47,14 +47,16 @@ class MeshBlocks {
     std::vector<std::uint32_t> number;  ///< of the block's vertices, those of before first, in what is kept
     WholeMesh part;
   };
+  void list_members();
+  void list_reaching(BoxGrid& grid);
 
   WholeMesh mesh_;
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> block_of_, local_;            ///< by vertex
-  std::vector<std::uint32_t> first_vertex_, vertices_;     ///< by block
-  std::vector<std::uint32_t> first_triangle_, triangles_;  ///< by block
+  std::vector<std::uint32_t> block_of_, local_;            ///< by vertex; the block behind the last is the rest
+  std::vector<std::uint32_t> first_vertex_, vertices_;     ///< by block, and of the rest
+  std::vector<std::uint32_t> first_triangle_, triangles_;  ///< the same
   std::vector<std::uint32_t> first_fixed_, fixed_;         ///< by block: triangles that reach into its box
-  std::vector<std::uint32_t> between_;                     ///< triangles of no block
+  std::vector<std::uint32_t> between_;                     ///< triangles with corners in several of them
   std::vector<Stored> stored_;
 };
 

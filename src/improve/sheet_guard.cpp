@@ -130,7 +130,7 @@ class VertexGrid {
   }
 
  private:
-  static constexpr int kCells = 24;
+  static constexpr int kCells = 16;
 
   std::vector<std::uint32_t> first_;   ///< by cell: of its vertices in sorted_
   std::vector<std::uint32_t> sorted_;  ///< vertices by cell
@@ -147,14 +147,16 @@ void mark_close_sheets(BlockMesh& mesh, double reach) {
     if (!marks[t[0]] && !marks[t[1]] && !marks[t[2]]) return;
     for (const std::uint32_t v : t) mesh.is_guarded[v] = 1;
   };
-  for (std::uint32_t t = 0; t < c.triangles(); ++t) spread(c.triangle(t));
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
+    if (c.has_triangle(t)) spread(c.triangle(t));
+  }
   for (const Triangle& t : mesh.fixed) spread(t);
 }
 
 }  // namespace
 
 SheetGuard::SheetGuard(BlockMesh& mesh, double largest, bool everywhere)
-    : lo_(mesh.box.lo), everywhere_(everywhere), head_(kMostCells * kMostCells * kMostCells, -1) {
+    : lo_(mesh.box.lo), everywhere_(everywhere) {
   double width = 0.0;
   for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
   cells_per_angstrom_ = static_cast<float>(kMostCells / width);
@@ -163,7 +165,9 @@ SheetGuard::SheetGuard(BlockMesh& mesh, double largest, bool everywhere)
   } else {
     mark_close_sheets(mesh, kReachInSizes * largest);
   }
-  for (std::uint32_t t = 0; t < mesh.connectivity.triangles(); ++t) insert(mesh, t);
+  for (std::uint32_t t = 0; t < mesh.connectivity.triangles(); ++t) {
+    if (mesh.connectivity.has_triangle(t)) insert(mesh, t);
+  }
   for (std::uint32_t i = 0; i < mesh.fixed.size(); ++i) {
     if (is_guarded(mesh, mesh.fixed[i])) enter(mesh, mesh.fixed[i], kFirstFixed + i);
   }
@@ -182,6 +186,7 @@ void SheetGuard::insert(const BlockMesh& mesh, std::uint32_t triangle) {
 }
 
 void SheetGuard::enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle) {
+  if (head_.empty()) head_.assign(kMostCells * kMostCells * kMostCells, -1);
   const SmallBox box = box_of(mesh, corners);
   const Normal normal = mean_normal(mesh, corners);
   visit_cells(box, [&](std::size_t cell) {

@@ -28,6 +28,7 @@ class SheetGuard {
   /// coplanar.
   template <typename Ignored>
   bool may_meet(const BlockMesh& mesh, const Triangle& t, const Ignored& ignored) const {
+    if (head_.empty()) return false;
     const SmallBox box = box_of(mesh, t);
     const Normal normal = mean_normal(mesh, t);
     return visit_cells(box, [&](std::size_t cell) {
@@ -121,7 +122,7 @@ class SheetGuard {
   Vec3 lo_;
   float cells_per_angstrom_;
   bool everywhere_;
-  std::vector<std::int32_t> head_;
+  std::vector<std::int32_t> head_;  ///< by cell: its first node; made when there is one
   std::vector<Node> nodes_;
 };
 

@@ -25,8 +25,8 @@ double wanted_size(double curvature, const SizeTargets& targets) {
   return std::max(size, least_size(curvature, targets));
 }
 
-/// Each edge once; those on the boundary, whose other half is kNone, have one only. No triangle is gone yet.
-inline bool is_first_half(const HalfEdgeMesh& c, Index h) { return h < c.twin(h); }
+/// Each edge once; those on the boundary, whose other half is kNone, have one only.
+inline bool is_first_half(const HalfEdgeMesh& c, Index h) { return h < c.twin(h) && c.has_triangle(h / 3); }
 
 /// Lowers sizes until none grows faster than kGrowth along an edge.
 class GrowthLimit {
@@ -113,22 +113,20 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   GrowthLimit(mesh).apply();
 }
 
-std::vector<Index> refine_sharp_edges(BlockMesh& mesh, float factor) {
-  constexpr double kSharp = 0.52;  // cosine of 58 degrees
+std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
+  constexpr float kSmaller = 0.8f;
   constexpr float kLeastRefinement = 0.4f;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<std::uint8_t> is_sharp(mesh.at.size(), 0);
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!c.has_triangle(h / 3) || c.twin(h) < h || !c.is_inner(c.from(h)) || !c.is_inner(c.to(h))) continue;
-    const Vec3 m = area_normal(mesh, h / 3), n = area_normal(mesh, c.twin(h) / 3);
-    const double cosine = dot(m, n);
-    if (cosine > 0.0 && cosine * cosine >= kSharp * kSharp * dot(m, m) * dot(n, n)) continue;
+    if (!turn_sharply(area_normal(mesh, h / 3), area_normal(mesh, c.twin(h) / 3))) continue;
     for (const Index v : {c.from(h), c.to(h), c.opposite(h), c.opposite(c.twin(h))}) is_sharp[v] = 1;
   }
   std::vector<Index> sharp;
   for (Index v = 0; v < c.vertices(); ++v) {
     if (!is_sharp[v]) continue;
-    mesh.refinement[v] = std::max(kLeastRefinement, factor * mesh.refinement[v]);
+    mesh.refinement[v] = std::max(kLeastRefinement, kSmaller * mesh.refinement[v]);
     sharp.push_back(v);
   }
   return sharp;

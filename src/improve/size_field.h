@@ -38,8 +38,7 @@ inline constexpr double kLeastSizeOfAll = 2e-5;
 /// Cost: one sum over the atoms nearby for each vertex whose curvature is not known.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 
-/// Asks for triangles smaller by `factor` where neighbours turn by nearly 60 degrees against each other.
-/// @return the vertices there
-std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh, float factor);
+/// Asks for smaller triangles, by a fifth, where neighbours turn_sharply() against each other. @return the vertices there
+std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh);
 
 }  // namespace gaussmesh

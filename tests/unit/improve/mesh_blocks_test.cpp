@@ -20,7 +20,6 @@ WholeMesh ring_mesh() {
   mesh.size.assign(mesh.at.size(), 0.5f);
   mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
-  mesh.is_settled.assign(mesh.at.size(), 0);
   mesh.triangles = traced.mesh.triangles;
   return mesh;
 }
@@ -49,6 +48,39 @@ TEST_CASE("blocks cut out and joined again are the mesh as it was") {
     CHECK(joined.at.size() == mesh.at.size());
     CHECK(by_place(joined) == by_place(mesh));
   }
+}
+
+TEST_CASE("boxes cut out of a mesh and put back leave it as it was, and take what lies in them") {
+  const WholeMesh mesh = ring_mesh();
+  std::vector<Box> boxes;
+  for (const std::size_t v : {std::size_t{0}, mesh.at.size() / 3, 2 * mesh.at.size() / 3}) {
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = mesh.at[v][k] - 1.0;
+      box.hi[k] = mesh.at[v][k] + 1.0;
+    }
+    const auto meets = [&](const Box& other) { return boxes_meet(box, other); };
+    if (std::none_of(boxes.begin(), boxes.end(), meets)) boxes.push_back(box);
+  }
+  REQUIRE(boxes.size() > 1);
+  MeshBlocks blocks(mesh, boxes, 2.0);
+  REQUIRE(blocks.size() == boxes.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    BlockMesh block = blocks.extract(b);
+    std::size_t inside = 0, reaching = 0;
+    for (const Triangle& t : mesh.triangles) {
+      const int corners = is_in(boxes[b], mesh.at[t[0]]) + is_in(boxes[b], mesh.at[t[1]]) + is_in(boxes[b], mesh.at[t[2]]);
+      inside += corners == 3;
+      reaching += corners == 1 || corners == 2;
+    }
+    CHECK(block.connectivity.triangles() == inside);
+    CHECK(block.fixed.size() >= reaching);
+    CHECK(inside > 10);
+    blocks.store(b, std::move(block));
+  }
+  const WholeMesh joined = std::move(blocks).join(2);
+  CHECK(joined.at.size() == mesh.at.size());
+  CHECK(by_place(joined) == by_place(mesh));
 }
 
 TEST_CASE("a block's triangles lie in its box, and what reaches into the box is there") {

@@ -1,0 +1,102 @@
+#include "improve/bad_places.h"
+
+#include <numbers>
+
+#include "core/parallel.h"
+#include "core/sort_and_unite.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Triangles that a thread looks at in one go.
+constexpr std::size_t kTrianglesAtOnce = 4096;
+
+/// Of two neighbours that turn sharply one is turned at least half as far from the field's normal at each common corner.
+const double kHalfASharpTurn = std::cos(0.5 * (kSharpestTurn - 0.1) * std::numbers::pi / 180.0);
+
+/// The numbers of the triangles for which choose() says so, in rising order.
+template <typename Choose>
+std::vector<std::uint32_t> choose_triangles(const WholeMesh& mesh, int threads, const Choose& choose) {
+  std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    const std::size_t end = std::min(mesh.triangles.size(), (i + 1) * kTrianglesAtOnce);
+    for (std::size_t t = i * kTrianglesAtOnce; t < end; ++t) {
+      if (choose(mesh.triangles[t])) parts[i].push_back(static_cast<std::uint32_t>(t));
+    }
+  });
+  std::vector<std::uint32_t> chosen;
+  for (const auto& part : parts) chosen.insert(chosen.end(), part.begin(), part.end());
+  return chosen;
+}
+
+/// An edge of one of the triangles that are looked at.
+struct SideOf {
+  std::uint32_t low, high, triangle;
+  auto operator<=>(const SideOf&) const = default;
+};
+
+/// Adds the corners of neighbours that turn sharply against each other.
+/// @param is_turned  by vertex, whether some triangle is turned far from the normal there
+void add_sharp_edges(const WholeMesh& mesh, const std::vector<std::uint8_t>& is_turned, int threads,
+                     std::vector<std::uint32_t>& bad) {
+  const auto has_turned_side = [&](const Triangle& t) {
+    return is_turned[t[0]] + is_turned[t[1]] + is_turned[t[2]] >= 2;
+  };
+  std::vector<SideOf> sides;
+  for (const std::uint32_t number : choose_triangles(mesh, threads, has_turned_side)) {
+    const Triangle& t = mesh.triangles[number];
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+      if (is_turned[low] && is_turned[high]) sides.push_back({low, high, number});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high) continue;
+    const Triangle &s = mesh.triangles[sides[i - 1].triangle], &t = mesh.triangles[sides[i].triangle];
+    if (!turn_sharply(area_normal(mesh, s), area_normal(mesh, t))) continue;
+    bad.insert(bad.end(), s.begin(), s.end());
+    bad.insert(bad.end(), t.begin(), t.end());
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads) {
+  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
+  const TriangleQuality good{least_sine, kHalfASharpTurn};
+  std::vector<std::uint32_t> bad;
+  std::vector<std::uint8_t> is_turned(mesh.at.size(), 0);
+  for (const std::uint32_t number :
+       choose_triangles(mesh, threads, [&](const Triangle& t) { return !is_at_least(mesh, t, good); })) {
+    const Triangle& t = mesh.triangles[number];
+    if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < least_sine) bad.insert(bad.end(), t.begin(), t.end());
+    const Vec3 normal = area_normal(mesh, t);
+    for (const std::uint32_t v : t) {
+      if (dot(normal, mesh.normal[v]) < kHalfASharpTurn * length(normal)) is_turned[v] = 1;
+    }
+  }
+  add_sharp_edges(mesh, is_turned, threads, bad);
+  sort_and_unite(bad);
+  return bad;
+}
+
+std::vector<Box> boxes_round(const WholeMesh& mesh, const std::vector<std::uint32_t>& bad, double half_edge) {
+  std::vector<Box> boxes;
+  BoxGrid grid(2.0 * half_edge);
+  for (const std::uint32_t v : bad) {
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = mesh.at[v][k] - half_edge;
+      box.hi[k] = mesh.at[v][k] + half_edge;
+    }
+    bool is_free = true;
+    grid.visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
+    if (!is_free) continue;
+    grid.add(box, static_cast<std::uint32_t>(boxes.size()));
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace gaussmesh

@@ -1,0 +1,20 @@
+// Where the whole mesh still has bad triangles, and boxes to work on them.
+#pragma once
+
+#include <vector>
+
+#include "improve/mesh_blocks.h"
+
+namespace gaussmesh {
+
+/// The smallest angle that triangles are to have (degrees); a little above what is promised.
+inline constexpr double kLeastAngle = 31.0;
+
+/// Corners of triangles with smaller angles, and of neighbours that turn_sharply() against each other, in rising order.
+/// Cost: one pass over the triangles, and a second over those that are turned from the field.
+std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads);
+
+/// Cubes round bad vertices in their order, as many as have no point in common.
+std::vector<Box> boxes_round(const WholeMesh& mesh, const std::vector<std::uint32_t>& bad, double half_edge);
+
+}  // namespace gaussmesh

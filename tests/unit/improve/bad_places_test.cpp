@@ -1,0 +1,94 @@
+// Bad triangles are found wherever they are, and boxes round them do not meet.
+#include "improve/bad_places.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "catch2.h"
+#include "gaussmesh/check_mesh.h"
+#include "support/meshing.h"
+
+using namespace gaussmesh;
+using namespace gaussmesh::testing;
+
+namespace {
+
+WholeMesh mesh_of(const MeshResult& result) {
+  WholeMesh mesh;
+  mesh.at = result.mesh.vertices;
+  mesh.normal = result.normals;
+  mesh.size.assign(mesh.at.size(), 0.5f);
+  mesh.curvature.assign(mesh.at.size(), -1.0f);
+  mesh.refinement.assign(mesh.at.size(), 1.0f);
+  mesh.triangles = result.mesh.triangles;
+  return mesh;
+}
+
+/// The same by looking at every pair of triangles with a common edge.
+std::vector<std::uint32_t> bad_vertices_by_pairs(const WholeMesh& mesh) {
+  std::set<std::uint32_t> bad;
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> side;
+  for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+    const Triangle& t = mesh.triangles[n];
+    const double sine = triangle_quality(mesh, t[0], t[1], t[2]).min_sine;
+    if (sine < std::sin(kLeastAngle / 180.0 * std::numbers::pi)) bad.insert(t.begin(), t.end());
+    for (int i = 0; i < 3; ++i) side[{t[i], t[(i + 1) % 3]}] = n;
+  }
+  for (const auto& [ends, n] : side) {
+    const Triangle &s = mesh.triangles[n], &t = mesh.triangles[side.at({ends[1], ends[0]})];
+    if (!turn_sharply(area_normal(mesh, s), area_normal(mesh, t))) continue;
+    bad.insert(s.begin(), s.end());
+    bad.insert(t.begin(), t.end());
+  }
+  return {bad.begin(), bad.end()};
+}
+
+}  // namespace
+
+TEST_CASE("an improved mesh has no bad places, and one as traced has those that pairs of triangles show") {
+  MeshOptions wish = options(0.6, 1.7, 0.8);
+  const auto atoms = atom_ring(8, 3.0, 1.5);
+  wish.improve = true;
+  CHECK(find_bad_vertices(mesh_of(mesh_surface(atoms, wish)), 1).empty());
+  wish.improve = false;
+  const WholeMesh raw = mesh_of(mesh_surface(atoms, wish));
+  const std::vector<std::uint32_t> bad = find_bad_vertices(raw, 2);
+  CHECK(bad.size() > 100);
+  CHECK(bad == bad_vertices_by_pairs(raw));
+}
+
+TEST_CASE("sharp edges between well-shaped triangles are bad places") {
+  // A regular octahedron: its sides turn by 70.5 degrees at each edge.
+  WholeMesh mesh;
+  mesh.at = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const Vec3& p : mesh.at) mesh.normal.push_back({float(p[0]), float(p[1]), float(p[2])});
+  mesh.size.assign(6, 1.0f);
+  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  CHECK(find_bad_vertices(mesh, 1).size() == 6);
+  mesh.triangles.resize(2);  // one of its edges alone
+  CHECK(find_bad_vertices(mesh, 1).size() == 4);
+  mesh.at[1] = {-0.6, 1, 0};
+  mesh.at[2] = {-1, 0, 0.6};  // now they turn by 50 degrees
+  CHECK(find_bad_vertices(mesh, 1).empty());
+}
+
+TEST_CASE("boxes round bad vertices have no common points, and none is far from all of them") {
+  const WholeMesh mesh = mesh_of(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)));
+  const std::vector<std::uint32_t> bad = find_bad_vertices(mesh, 1);
+  const double half_edge = 1.0;
+  const std::vector<Box> boxes = boxes_round(mesh, bad, half_edge);
+  REQUIRE(boxes.size() > 3);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes_meet(boxes[i], boxes[j]));
+  }
+  for (const std::uint32_t v : bad) {
+    Box around;
+    for (int k = 0; k < 3; ++k) {
+      around.lo[k] = mesh.at[v][k] - half_edge;
+      around.hi[k] = mesh.at[v][k] + half_edge;
+    }
+    CHECK(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return boxes_meet(around, box); }));
+  }
+}
