@@ -1,6 +1,7 @@
 #include "pipeline/assemble_surface.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "field/point_value.h"
@@ -101,6 +102,38 @@ class BrickTracer {
 /// is one of quality, not of topology, and near a singular point it cannot be kept at any size.
 constexpr int kFinestForNormals = 5;
 
+/// Takes over what an earlier call made of cells that have not changed, cell after cell.
+class CellCopier {
+ public:
+  explicit CellCopier(const PatchedCells& from) : from_(from) {}
+
+  void skip() {
+    first_triangle_ += from_.counts[cell_].triangles;
+    first_point_ += from_.counts[cell_].points;
+    ++cell_;
+  }
+
+  void copy(bool is_fold_cell, PatchedCells& result) {
+    const PatchCounts& counts = from_.counts[cell_];
+    const auto shift = static_cast<std::uint32_t>(result.points.size()) - first_point_;
+    for (std::uint32_t t = first_triangle_; t < first_triangle_ + counts.triangles; ++t) {
+      Triangle triangle = from_.triangles[t];
+      for (std::uint32_t& v : triangle) v = v >= kLocalVertex ? v + shift : v;
+      result.triangles.push_back(triangle);
+    }
+    const auto points = from_.points.begin() + first_point_;
+    result.points.insert(result.points.end(), points, points + counts.points);
+    result.counts.push_back(counts);
+    result.fold_cells += is_fold_cell && counts.triangles > 0;
+    skip();
+  }
+
+ private:
+  const PatchedCells& from_;
+  std::size_t cell_ = 0;
+  std::uint32_t first_triangle_ = 0, first_point_ = 0;
+};
+
 /// Gathers the loops of cells and triangulates them. Keeps buffers: one for each thread.
 class CellPatcher {
  public:
@@ -120,8 +153,9 @@ class CellPatcher {
 
   void patch_cell(const CellStore::Place& place, Result& result) {
     const SurfaceCell& cell = store_.cell(place);
-    if (cell.split) return;
-    patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, result);
+    const std::size_t triangles = result.triangles.size(), points = result.points.size();
+    if (!cell.split) patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, result);
+    result.counts.push_back({count(result.triangles.size() - triangles), count(result.points.size() - points)});
   }
 
   void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.direction, 0, result); }
@@ -145,6 +179,11 @@ class CellPatcher {
       result.triangles.push_back(t);
     }
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
+  }
+
+  static std::uint16_t count(std::size_t n) {
+    if (n > PatchCounts::kMost) throw InternalError("too many triangles in a cell: choose a smaller spacing");
+    return static_cast<std::uint16_t>(n);
   }
 
   static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
@@ -212,61 +251,68 @@ class CellPatcher {
 
 }  // namespace
 
-void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                  std::span<const std::uint32_t> bricks, TracedVertices& vertices, int threads) {
+void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store, TracedVertices& vertices,
+                  int threads) {
+  std::vector<Brick>& bricks = store.bricks();
   std::vector<std::vector<SurfacePoint>> points(bricks.size());
   parallel_for_workers(bricks.size(), threads, 1, [&] {
     return [&, tracer = BrickTracer(field, lattice, store)](std::size_t i) mutable {
-      tracer.trace(store.bricks()[bricks[i]], bricks[i], points[i]);
+      tracer.trace(bricks[i], static_cast<std::uint32_t>(i), points[i]);
     };
   });
   for (std::size_t i = 0; i < bricks.size(); ++i) {
-    Brick& brick = store.bricks()[bricks[i]];
-    vertices.drop(brick.face_vertices);
-    brick.face_vertices = vertices.add(points[i]);
+    const std::uint32_t first = vertices.add(points[i]).first;
     const auto number = [&](std::uint32_t& v) {
-      if (v >= kLocalVertex) v = brick.face_vertices.first + (v - kLocalVertex);
+      if (v >= kLocalVertex) v = first + (v - kLocalVertex);
     };
-    for (Link& link : brick.links) {
+    for (Link& link : bricks[i].links) {
       number(link.from);
       number(link.to);
     }
   }
 }
 
-std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<const std::uint32_t> traced) {
-  // The faces of a cell are its own low ones and those of the next cell along each axis.
-  std::vector<std::uint32_t> bricks(traced.begin(), traced.end());
-  for (const std::uint32_t b : traced) {
-    for (int axis = 0; axis < 3; ++axis) {
-      BrickIndex index = store.bricks()[b].index;
-      --index[axis];
-      if (const auto before = store.find_brick(index)) bricks.push_back(*before);
+std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
+                                                   const TracedVertices& vertices, int threads) {
+  const std::size_t all_bricks = store_.bricks().size();
+  const bool is_first = patched_.empty();
+  const std::vector<CellStore::Place> changed = is_first ? std::vector<CellStore::Place>() : split.changed_places();
+  patched_.resize(all_bricks + split.cells().size());
+  std::vector<std::size_t> tasks;
+  if (is_first) {
+    tasks.resize(all_bricks);
+    std::iota(tasks.begin(), tasks.end(), std::size_t{0});
+  } else {
+    for (const CellStore::Place& place : changed) {
+      if (tasks.empty() || tasks.back() != place.brick) tasks.push_back(place.brick);
     }
   }
-  return bricks;
-}
-
-std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,
-                                                   const TracedVertices& vertices,
-                                                   std::span<const std::uint32_t> bricks, int threads) {
-  const std::size_t all_bricks = store_.bricks().size();
-  patched_.resize(all_bricks + split.cells().size());
-  std::vector<std::size_t> tasks(bricks.begin(), bricks.end());
   for (const std::uint32_t cell : split.changed_cells()) tasks.push_back(all_bricks + cell);
   parallel_for_workers(tasks.size(), threads, 1, [&] {
     return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, least_corner_cosine_)](
                std::size_t i) mutable {
-      PatchedCells& result = patched_[tasks[i]];
-      result = {};
+      PatchedCells result;
       if (tasks[i] < all_bricks) {
         const auto brick = static_cast<std::uint32_t>(tasks[i]);
         const auto cells = static_cast<std::uint32_t>(store_.bricks()[brick].cells.size());
-        for (std::uint32_t c = 0; c < cells; ++c) patcher.patch_cell({brick, c}, result);
+        result.counts.reserve(cells);
+        CellCopier before(patched_[tasks[i]]);
+        for (std::uint32_t c = 0; c < cells; ++c) {
+          const CellStore::Place place{brick, c};
+          if (is_first) {
+            patcher.patch_cell(place, result);
+          } else if (std::binary_search(changed.begin(), changed.end(), place)) {
+            patcher.patch_cell(place, result);
+            before.skip();
+          } else {
+            before.copy(store_.cell(place).direction.sign == 0, result);
+          }
+        }
       } else {
         for (const LeafCell& leaf : split.cells()[tasks[i] - all_bricks].leaves) patcher.patch_leaf(leaf, result);
       }
       result.triangles.shrink_to_fit();
+      patched_[tasks[i]] = std::move(result);
     };
   });
   std::vector<CellKey> failed;

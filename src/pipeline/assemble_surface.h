@@ -10,21 +10,26 @@
 
 namespace gaussmesh {
 
-/// Follows the curves on the faces of level 0 that some bricks own and that smaller cells have not taken over: fills
-/// their links anew, and adds vertices inside faces.
-void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store,
-                  std::span<const std::uint32_t> bricks, TracedVertices& vertices, int threads);
+/// Follows the curves on the faces of level 0 that smaller cells have not taken over: fills the links of all bricks,
+/// and adds the vertices inside faces.
+void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store, TracedVertices& vertices,
+                  int threads);
 
-/// The bricks that see the faces of others, and those themselves.
-std::vector<std::uint32_t> bricks_that_see(const CellStore& store, std::span<const std::uint32_t> traced);
+/// How much of PatchedCells one cell has.
+struct PatchCounts {
+  static constexpr std::size_t kMost = 0xFFFF;
+  std::uint16_t triangles = 0;
+  std::uint16_t points = 0;
+};
 
 /// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from
 /// kLocalVertex on.
 struct PatchedCells {
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;
-  std::size_t fold_cells = 0;
+  std::vector<PatchCounts> counts;   ///< by cell of a brick, until nothing changes any more
   std::vector<CellKey> failed;
+  std::size_t fold_cells = 0;
 };
 
 /// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
@@ -35,12 +40,11 @@ class CellTriangulator {
                    double least_corner_cosine)
       : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
 
-  /// Triangulates the cells in some bricks - all of them in the first call - and those that the last call of
-  /// split.split() changed. @return those without an embedded triangulation, which must be split; when there are
-  /// none, join() makes the surface of what was kept from all calls
+  /// Triangulates all cells in the first call, and then those that the last call of split.split() changed.
+  /// @return those without an embedded triangulation, which must be split; when there are none, join() makes the
+  /// surface of what was kept from all calls
   std::vector<CellKey> triangulate(const SplitLattice& split, const FoldCellMap& folds,
-                                   const TracedVertices& vertices, std::span<const std::uint32_t> bricks,
-                                   int threads);
+                                   const TracedVertices& vertices, int threads);
 
   /// Cells that are cut along folds.
   std::size_t fold_cells() const;

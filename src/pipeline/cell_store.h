@@ -42,7 +42,6 @@ struct Brick {
   std::array<std::uint16_t, 8> rank{};       ///< cells in the words of `occupied` before
   std::vector<SurfaceCell> cells;            ///< by `local`
   std::vector<Link> links;
-  VertexRange face_vertices;                 ///< vertices inside faces
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
   std::vector<std::size_t> boxes_by_level;
 };
@@ -67,6 +66,7 @@ class CellStore {
   struct Place {
     std::uint32_t brick = 0;
     std::uint32_t cell = 0;
+    auto operator<=>(const Place&) const = default;
   };
   /// The cell with lowest corner `lo`, if the surface may cross it. `hint`: a brick to look in first.
   std::optional<Place> find(const FineIndex& lo, std::uint32_t hint = 0) const;

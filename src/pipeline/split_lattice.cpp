@@ -161,36 +161,37 @@ void SplitLattice::mark_changed_beside(const CellKey& key) {
   }
 }
 
-std::vector<std::uint32_t> SplitLattice::changed_bricks() const {
-  std::vector<std::uint32_t> bricks;
+std::vector<CellStore::Place> SplitLattice::changed_places() const {
+  std::vector<CellStore::Place> places;
   for (const CellKey& key : newly_split_) {
-    if (key.level == 0) bricks.push_back(store_.find(key.lo)->brick);
+    if (key.level == 0) places.push_back(*store_.find(key.lo));
     for (const CellKey& beside : cells_beside(key)) {
       if (split_.contains(beside) || find_split_around(beside)) continue;
-      if (const auto place = store_.find(cell_around(beside, 0).lo)) bricks.push_back(place->brick);
+      if (const auto place = store_.find(cell_around(beside, 0).lo)) places.push_back(*place);
     }
   }
-  sort_and_unite(bricks);
-  return bricks;
+  sort_and_unite(places);
+  return places;
 }
 
-std::vector<std::uint32_t> SplitLattice::mark_cells(CellStore& store) const {
-  std::vector<std::uint32_t> bricks;
+void SplitLattice::mark_cells(CellStore& store) const {
+  const auto take_over = [&](const CellStore::Place& place, int axis) {
+    SurfaceCell& owner = store.cell(place);
+    if (owner.divided_faces >> axis & 1) return;
+    owner.divided_faces |= static_cast<std::uint8_t>(1u << axis);
+    for (const Link& link : store.face_links(place, axis)) {
+      if (link.from >= store.root_vertices()) vertices_.drop({link.from, 1});
+    }
+  };
   for (const CellKey& key : newly_split_) {
     if (key.level > 0) continue;
     const auto place = store.find(key.lo);
     store.cell(*place).split = true;
-    store.cell(*place).divided_faces = 7;
-    bricks.push_back(place->brick);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick);
-      if (!next) continue;
-      store.cell(*next).divided_faces |= static_cast<std::uint8_t>(1u << axis);
-      bricks.push_back(next->brick);
+      take_over(*place, axis);
+      if (const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick)) take_over(*next, axis);
     }
   }
-  sort_and_unite(bricks);
-  return bricks;
 }
 
 unsigned SplitLattice::fold_axes(const LatticeKey& face) const {

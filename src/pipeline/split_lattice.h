@@ -55,12 +55,11 @@ class SplitLattice {
   void split(std::span<const CellKey> cells, int threads);
 
   /// Marks in the store which cells of level 0 the last call of split() split, and their faces, which smaller cells
-  /// have taken over. @return the bricks with such faces, in rising order
-  std::vector<std::uint32_t> mark_cells(CellStore& store) const;
+  /// have taken over with the curves in them.
+  void mark_cells(CellStore& store) const;
 
-  /// Bricks with unsplit cells of level 0 round which the last call of split() changed curves of smaller cells, in
-  /// rising order.
-  std::vector<std::uint32_t> changed_bricks() const;
+  /// Cells of level 0 that the last call of split() split, and unsplit ones whose faces it changed, in rising order.
+  std::vector<CellStore::Place> changed_places() const;
 
   /// Entries of cells() whose leaves, or the curves round them, the last call of split() changed, in rising order;
   /// new ones among them.

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/lattice_degenerate.h"
-#include "core/sort_and_unite.h"
 #include "gaussmesh/error.h"
 #include "pipeline/critical_point.h"
 #include "pipeline/find_fold_cells.h"
@@ -49,13 +47,6 @@ void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult&
   }
 }
 
-/// Both lists as one, in rising order and each number once.
-std::vector<std::uint32_t> united(std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  sort_and_unite(a);
-  return a;
-}
-
 TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double least_corner_cosine, int threads,
                      const StageClock& finished) {
   TraceResult result;
@@ -74,8 +65,6 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
   TracedVertices vertices(store);
   auto split = std::make_optional<SplitLattice>(field, lattice, store, search.folds, vertices);
   CellTriangulator cells(field, lattice, store, least_corner_cosine);
-  std::vector<std::uint32_t> all_bricks(store.bricks().size());
-  std::iota(all_bricks.begin(), all_bricks.end(), 0u);
   std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
     split->split(to_split, threads);
@@ -84,13 +73,10 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, double 
       result.uncertified = split->uncertified();
       return result;
     }
-    const std::vector<std::uint32_t> taken_over = split->mark_cells(store);
-    const std::vector<std::uint32_t>& to_trace = round == 0 ? all_bricks : taken_over;
-    trace_bricks(field, lattice, store, to_trace, vertices, threads);
+    split->mark_cells(store);
+    if (round == 0) trace_bricks(field, lattice, store, vertices, threads);
     finished("curves");
-    const std::vector<std::uint32_t> to_patch =
-        round == 0 ? all_bricks : united(bricks_that_see(store, to_trace), split->changed_bricks());
-    to_split = cells.triangulate(*split, search.folds, vertices, to_patch, threads);
+    to_split = cells.triangulate(*split, search.folds, vertices, threads);
     if (to_split.empty()) {
       result.cells_split = split->split_cells();
       split.reset();  // nobody asks for its cells and curves any more, and the mesh needs the room
