@@ -17,6 +17,10 @@
 #include "mesh_command.h"
 #include "validators.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace {
 
 using namespace gaussmesh::app;
@@ -63,6 +67,15 @@ void handle_signals() {
     if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
   std::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is then an error of write()
+}
+
+/// Large arrays are given back to the system as soon as they are free. Left to itself, glibc keeps arrays of the size of
+/// those that were freed before, whose room the smaller ones that follow then break up.
+void keep_large_arrays_apart() {
+#ifdef __GLIBC__
+  constexpr int kLargeArray = 1 << 18;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLargeArray);
+#endif
 }
 
 /// What a word that fits nowhere may stand for: an option where it begins with a dash, else a sub-command.
@@ -174,6 +187,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_large_arrays_apart();
   handle_signals();
   const int code = run_and_tell(argc, argv);
   if (late_signal != 0) die_of(late_signal);
