@@ -100,6 +100,43 @@ constexpr int kThird[3][3][3] = {{{0, 3, 4}, {3, 5, 9}, {4, 9, 7}},
                                  {{4, 9, 7}, {9, 6, 8}, {7, 8, 2}}};
 constexpr int kSecond[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 
+/// What belongs to an axis, of a thing that has one value for each.
+struct AlongAxis {
+  int axis;
+
+  double part(int k) const { return k == axis ? 1.0 : 0.0; }
+  template <typename Values>
+  double of(const Values& value) const { return value(axis); }
+  /// A bound of what belongs to it, of bounds for each axis.
+  template <typename Bounds>
+  double sum_of(const Bounds& bound) const { return bound(axis); }
+  template <typename Ranges>
+  Range range_of(const Ranges& range) const { return range(axis); }
+};
+
+/// The same for a vector.
+struct AlongVector {
+  Vec3 n;
+
+  double part(int k) const { return n[k]; }
+  template <typename Values>
+  double of(const Values& value) const { return n[0] * value(0) + n[1] * value(1) + n[2] * value(2); }
+  template <typename Bounds>
+  double sum_of(const Bounds& bound) const {
+    return std::abs(n[0]) * bound(0) + std::abs(n[1]) * bound(1) + std::abs(n[2]) * bound(2);
+  }
+  template <typename Ranges>
+  Range range_of(const Ranges& range) const {
+    Range sum;
+    for (int k = 0; k < 3; ++k) {
+      const Range part = range(k);
+      sum.lo += n[k] * (n[k] > 0.0 ? part.lo : part.hi);
+      sum.hi += n[k] * (n[k] > 0.0 ? part.hi : part.lo);
+    }
+    return sum;
+  }
+};
+
 /// Indices of the third moments that a second one and x, y or z make.
 constexpr int kTimes[6][3] = {{0, 3, 4}, {5, 1, 6}, {7, 8, 2}, {3, 5, 9}, {4, 9, 7}, {9, 6, 8}};
 
@@ -203,8 +240,12 @@ LocalModel::View::View(const LocalModel& model, const Box& part) : model_(model)
   const double cube = lambda * lambda * lambda;
   remainder_ = cube * lambda * model.remainder_ + lost;
   for (int k = 0; k < 3; ++k) remainder_slope_[k] = cube * model.remainder_slope_[k] + lost * model.slope_size_;
-  middle_value_ = model.psi_ + (g_ > 0.0 && g_ != 1.0 ? std::log(g_) : 0.0);
-  for (int k = 0; k < 3; ++k) middle_value_ -= model.decay_ * t_[k] * (2.0 * model.mean_offset_[k] + t_[k]);
+}
+
+double LocalModel::View::middle_value() const {
+  double value = model_.psi_ + (g_ > 0.0 && g_ != 1.0 ? std::log(g_) : 0.0);
+  for (int k = 0; k < 3; ++k) value -= model_.decay_ * t_[k] * (2.0 * model_.mean_offset_[k] + t_[k]);
+  return value;
 }
 
 Vec3 LocalModel::View::middle_gradient() const {
@@ -234,6 +275,7 @@ Range LocalModel::View::value() const {
   }
   double lo = plain_lo, hi = plain_hi;
   if (g_ > 0.5) {
+    const double middle = middle_value();
     double linear = 0.0, quadratic_lo = 0.0, quadratic_hi = 0.0;
     for (int j = 0; j < 3; ++j) {
       linear += std::abs(g1_[j] / g_ - 2.0 * d * (model_.mean_offset_[j] + t_[j])) * s_[j];
@@ -247,10 +289,10 @@ Range LocalModel::View::value() const {
     }
     const double rest = (sum3_ / 6.0 + remainder_) / g_;
     const double change = (sum1_ + 0.5 * sum2_) / g_ + rest;  // |g / g(t) - 1| in the part
-    hi = std::min(hi, middle_value_ + linear + quadratic_hi + rest);
+    hi = std::min(hi, middle + linear + quadratic_hi + rest);
     if (change < 0.7) {
       // log(1 + x) >= x - x^2 / (2 (1 - |x|))
-      lo = std::max(lo, middle_value_ - linear + quadratic_lo - rest - 0.5 * change * change / (1.0 - change));
+      lo = std::max(lo, middle - linear + quadratic_lo - rest - 0.5 * change * change / (1.0 - change));
     }
   }
   const double rounding = model_.relative_error_ + 1e-15 * size;
@@ -265,35 +307,42 @@ Range LocalModel::View::value() const {
   return {lo - rounding, hi};
 }
 
-Range LocalModel::View::slope(int axis) const {
+template <typename Along>
+Range LocalModel::View::slope_of(const Along& along) const {
   const double d = model_.decay_;
   if (model_.empty_ || model_.tail_ > 0.01) return {-kInfinity, kInfinity};
   // Atoms left out: |phi_k / c| changes by tail_slope_, and phi of the others is at least c (1 - tail_) where phi = c.
-  const double omitted = 1.02 * model_.tail_slope_;
+  const double omitted = along.sum_of([&](int) { return 1.02 * model_.tail_slope_; });
   // All atoms on one side: dpsi/dx = -2 d E[x - x_i].
-  const double lo = model_.middle_[axis] + t_[axis] - s_[axis], hi = model_.middle_[axis] + t_[axis] + s_[axis];
-  const Range one_sided{-2.0 * d * (hi - model_.atoms_lo_[axis]) - omitted,
-                        -2.0 * d * (lo - model_.atoms_hi_[axis]) + omitted};
+  const auto middle = [&](int k) { return model_.middle_[k] + t_[k]; };
+  Range one_sided = along.range_of([&](int k) {
+    return Range{-2.0 * d * (middle(k) + s_[k] - model_.atoms_lo_[k]),
+                 -2.0 * d * (middle(k) - s_[k] - model_.atoms_hi_[k])};
+  });
+  one_sided = {one_sided.lo - omitted, one_sided.hi + omitted};
   if (!model_.usable_) return one_sided;
-  const double v = model_.mean_offset_[axis], c = v + t_[axis];
+  const auto centre = [&](int k) { return model_.mean_offset_[k] + t_[k]; };
+  const double c = along.of(centre), reach = along.sum_of([&](int k) { return s_[k]; });
   // Q = dg/dx - 2 d (v + x) g has the sign of dpsi/dx; its Taylor coefficients at t_.
-  const double q0 = g1_[axis] - 2.0 * d * c * g_;
+  const double q0 = along.of([&](int k) { return g1_[k]; }) - 2.0 * d * c * g_;
   double linear = 0.0, quadratic = 0.0;
   for (int l = 0; l < 3; ++l) {
-    const double same_l = l == axis ? 1.0 : 0.0;
-    linear += std::abs(g2_[kSecond[axis][l]] - 2.0 * d * (same_l * g_ + c * g1_[l])) * s_[l];
+    const double part_l = along.part(l);
+    const double second = along.of([&](int k) { return g2_[kSecond[k][l]]; });
+    linear += std::abs(second - 2.0 * d * (part_l * g_ + c * g1_[l])) * s_[l];
     for (int m = l; m < 3; ++m) {
-      const double same_m = m == axis ? 1.0 : 0.0;
       const double both = l == m ? 1.0 : 2.0;
+      const double third = along.of([&](int k) { return model_.third_[kThird[k][l][m]]; });
       quadratic += both *
-                   std::abs(model_.third_[kThird[axis][l][m]] -
-                            2.0 * d * (same_l * g1_[m] + same_m * g1_[l] + c * g2_[kSecond[l][m]])) *
+                   std::abs(third - 2.0 * d * (part_l * g1_[m] + along.part(m) * g1_[l] + c * g2_[kSecond[l][m]])) *
                    s_[l] * s_[m];
     }
   }
-  const double cubic = d * s_[axis] * sum2_ + d / 3.0 * (std::abs(c) + s_[axis]) * sum3_;
-  const double rest = remainder_slope_[axis] + 2.0 * d * (std::abs(c) + s_[axis]) * remainder_;
-  const double rounding = 16.0 * model_.relative_error_ * 2.0 * d * (std::abs(c) + s_[axis]);
+  const double cubic = d * reach * sum2_ + d / 3.0 * (std::abs(c) + reach) * sum3_;
+  const double rest = along.sum_of([&](int k) { return remainder_slope_[k]; }) +
+                      2.0 * d * (std::abs(c) + reach) * remainder_;
+  const double rounding = 16.0 * model_.relative_error_ * 2.0 * d *
+                          along.sum_of([&](int k) { return std::abs(centre(k)) + s_[k]; });
   const double spread = linear + 0.5 * quadratic + cubic + rest + rounding;
   Range range{q0 - spread - omitted * model_.growth_, q0 + spread + omitted * model_.growth_};
   range.lo = std::max(range.lo, one_sided.lo);
@@ -301,38 +350,10 @@ Range LocalModel::View::slope(int axis) const {
   return range;
 }
 
-Range LocalModel::View::slope_along(const Vec3& n) const {
-  const double d = model_.decay_;
-  if (!model_.usable_ || model_.tail_ > 0.01) return {-kInfinity, kInfinity};
-  double size = 0.0, reach = 0.0, c = 0.0, q0 = 0.0, rest = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    size += std::abs(n[k]);
-    reach += std::abs(n[k]) * s_[k];
-    c += n[k] * (model_.mean_offset_[k] + t_[k]);
-    q0 += n[k] * g1_[k];
-    rest += std::abs(n[k]) * remainder_slope_[k];
-  }
-  q0 -= 2.0 * d * c * g_;
-  double linear = 0.0, quadratic = 0.0;
-  for (int l = 0; l < 3; ++l) {
-    double second = 0.0;
-    for (int k = 0; k < 3; ++k) second += n[k] * g2_[kSecond[k][l]];
-    linear += std::abs(second - 2.0 * d * (n[l] * g_ + c * g1_[l])) * s_[l];
-    for (int m = l; m < 3; ++m) {
-      double third = 0.0;
-      for (int k = 0; k < 3; ++k) third += n[k] * model_.third_[kThird[k][l][m]];
-      quadratic += (l == m ? 1.0 : 2.0) *
-                   std::abs(third - 2.0 * d * (n[l] * g1_[m] + n[m] * g1_[l] + c * g2_[kSecond[l][m]])) * s_[l] * s_[m];
-    }
-  }
-  const double cubic = d * reach * sum2_ + d / 3.0 * (std::abs(c) + reach) * sum3_;
-  rest += 2.0 * d * (std::abs(c) + reach) * remainder_;
-  double centre_size = 0.0;
-  for (int k = 0; k < 3; ++k) centre_size += std::abs(n[k]) * (std::abs(model_.mean_offset_[k] + t_[k]) + s_[k]);
-  const double rounding = 16.0 * model_.relative_error_ * 2.0 * d * centre_size;
-  const double omitted = 1.02 * model_.tail_slope_ * size;
-  const double spread = linear + 0.5 * quadratic + cubic + rest + rounding + omitted * model_.growth_;
-  return {q0 - spread, q0 + spread};
+Range LocalModel::View::slope(int axis) const { return slope_of(AlongAxis{axis}); }
+
+Range LocalModel::View::slope(const Direction& direction) const {
+  return direction.is_slanted() ? slope_of(AlongVector{direction.vector()}) : slope(direction.axis);
 }
 
 }  // namespace gaussmesh

@@ -73,17 +73,16 @@ class LocalModel::View {
   Range slope(int axis) const;
 
   /// The same of the derivative along the vector of a direction, whatever the sign that it tells.
-  Range slope(const Direction& direction) const {
-    return direction.is_slanted() ? slope_along(direction.vector()) : slope(direction.axis);
-  }
+  Range slope(const Direction& direction) const;
 
   /// log(phi / c) at the middle of the part, from the model, and its gradient; no bounds.
-  double middle_value() const { return middle_value_; }
+  double middle_value() const;
   Vec3 middle_gradient() const;
   double middle_curvature(int axis) const;  ///< second derivative along an axis
 
  private:
-  Range slope_along(const Vec3& direction) const;
+  template <typename Along>
+  Range slope_of(const Along& along) const;
 
   const LocalModel& model_;
   Vec3 t_{};            ///< middle of the part relative to the model's (A)
@@ -94,7 +93,6 @@ class LocalModel::View {
   double sum1_ = 0.0, sum2_ = 0.0, sum3_ = 0.0;  ///< sums |derivative| s^order over all index tuples
   double remainder_ = 0.0;
   Vec3 remainder_slope_{};
-  double middle_value_ = 0.0;
 };
 
 }  // namespace gaussmesh

@@ -146,7 +146,8 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
   }
   std::uint32_t number = hint;
   if (bricks_.empty()) return std::nullopt;
-  if (bricks_[hint].index != index) {
+  const BrickIndex& hinted = bricks_[hint].index;  // compared without a call of memcmp()
+  if (hinted[0] != index[0] || hinted[1] != index[1] || hinted[2] != index[2]) {
     const auto it = by_index_.find(index);
     if (it == by_index_.end()) return std::nullopt;
     number = it->second;

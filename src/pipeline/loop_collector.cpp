@@ -13,7 +13,7 @@ std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t h
     collect_links(k, moved(key.lo, k, fine_size(key.level)), key.level, hint, true);
   }
   build_loops(lattice_.point(key.lo), lattice_.point(cell_hi(key)));
-  return loops_;
+  return {loops_.data(), loop_count_};
 }
 
 // The surface of a cell is on the left of a link in its low faces, on the right of one in its high faces.
@@ -40,12 +40,19 @@ void LoopCollector::collect_parts(int axis, const FineIndex& lo, int level, std:
   }
 }
 
+Loop& LoopCollector::add_loop() {
+  if (loop_count_ == loops_.size()) loops_.emplace_back();
+  Loop& loop = loops_[loop_count_++];
+  loop.clear();
+  return loop;
+}
+
 void LoopCollector::build_loops(const CoordPoint& lo, const CoordPoint& hi) {
-  loops_.clear();
+  loop_count_ = 0;
   used_.assign(links_.size(), false);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (used_[i]) continue;
-    Loop& loop = loops_.emplace_back();
+    Loop& loop = add_loop();
     std::size_t at = i;
     while (!used_[at]) {
       used_[at] = true;

@@ -28,6 +28,7 @@ class LoopCollector {
   void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);
   void collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);
   void build_loops(const CoordPoint& lo, const CoordPoint& hi);
+  Loop& add_loop();
 
   const Lattice& lattice_;
   const CellStore& store_;
@@ -35,7 +36,8 @@ class LoopCollector {
   const TracedVertices& vertices_;
   std::vector<Link> links_;
   std::vector<bool> used_;
-  std::vector<Loop> loops_;
+  std::vector<Loop> loops_;  ///< those of the last call first; others keep their buffers
+  std::size_t loop_count_ = 0;
 };
 
 }  // namespace gaussmesh

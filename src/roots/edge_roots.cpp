@@ -161,11 +161,14 @@ std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const Loc
 void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
   const Box part{at(s.a), at(s.b)};
   const LocalModel::View view = model.over(part);
-  const Range value = view.value();
-  if (value.hi < 0.0 || value.lo > 0.0) return;
+  const bool is_crossed = s.inside_a != s.inside_b;
+  if (!is_crossed) {
+    const Range value = view.value();
+    if (value.hi < 0.0 || value.lo > 0.0) return;
+  }
   const Range slope = view.slope(axis_);
   if (slope.lo > 0.0 || slope.hi < 0.0) {
-    if (s.inside_a != s.inside_b) refine(model, s);
+    if (is_crossed) refine(model, s);
     return;
   }
   if (s.b - s.a < kClosestRoots) throw LatticeDegenerate(part.lo);

@@ -9,24 +9,14 @@
 #include "catch2.h"
 #include "gaussmesh/check_mesh.h"
 #include "support/meshing.h"
+#include "support/whole_mesh.h"
 
 using namespace gaussmesh;
 using namespace gaussmesh::testing;
 
 namespace {
 
-WholeMesh mesh_of(const MeshResult& result) {
-  WholeMesh mesh;
-  mesh.at = result.mesh.vertices;
-  mesh.normal = result.normals;
-  mesh.size.assign(mesh.at.size(), 0.5f);
-  mesh.curvature.assign(mesh.at.size(), -1.0f);
-  mesh.refinement.assign(mesh.at.size(), 1.0f);
-  mesh.triangles = result.mesh.triangles;
-  return mesh;
-}
-
-/// The same by looking at every pair of triangles with a common edge.
+/// find_bad_vertices() by looking at every pair of triangles with a common edge.
 std::vector<std::uint32_t> bad_vertices_by_pairs(const WholeMesh& mesh) {
   std::set<std::uint32_t> bad;
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> side;
@@ -51,9 +41,9 @@ TEST_CASE("an improved mesh has no bad places, and one as traced has those that 
   MeshOptions wish = options(0.6, 1.7, 0.8);
   const auto atoms = atom_ring(8, 3.0, 1.5);
   wish.improve = true;
-  CHECK(find_bad_vertices(mesh_of(mesh_surface(atoms, wish)), 1).empty());
+  CHECK(find_bad_vertices(whole_mesh(mesh_surface(atoms, wish), 0.8f), 1).empty());
   wish.improve = false;
-  const WholeMesh raw = mesh_of(mesh_surface(atoms, wish));
+  const WholeMesh raw = whole_mesh(mesh_surface(atoms, wish), 0.8f);
   const std::vector<std::uint32_t> bad = find_bad_vertices(raw, 2);
   CHECK(bad.size() > 100);
   CHECK(bad == bad_vertices_by_pairs(raw));
@@ -75,7 +65,7 @@ TEST_CASE("sharp edges between well-shaped triangles are bad places") {
 }
 
 TEST_CASE("boxes round bad vertices have no common points, and none is far from all of them") {
-  const WholeMesh mesh = mesh_of(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)));
+  const WholeMesh mesh = whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)), 0.8f);
   const std::vector<std::uint32_t> bad = find_bad_vertices(mesh, 1);
   const double half_edge = 1.0;
   const std::vector<Box> boxes = boxes_round(mesh, bad, half_edge);

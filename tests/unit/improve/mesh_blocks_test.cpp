@@ -6,23 +6,14 @@
 #include "catch2.h"
 #include "gaussmesh/check_mesh.h"
 #include "support/meshing.h"
+#include "support/whole_mesh.h"
 
 using namespace gaussmesh;
 using namespace gaussmesh::testing;
 
 namespace {
 
-WholeMesh ring_mesh() {
-  const MeshResult traced = mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.5));
-  WholeMesh mesh;
-  mesh.at = traced.mesh.vertices;
-  mesh.normal = traced.normals;
-  mesh.size.assign(mesh.at.size(), 0.5f);
-  mesh.curvature.assign(mesh.at.size(), -1.0f);
-  mesh.refinement.assign(mesh.at.size(), 1.0f);
-  mesh.triangles = traced.mesh.triangles;
-  return mesh;
-}
+WholeMesh ring_mesh() { return whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.5)), 0.5f); }
 
 /// Triangles by the places of their corners, the least corner first.
 std::map<std::array<Vec3, 3>, int> by_place(const WholeMesh& mesh) {
