@@ -44,7 +44,7 @@ constexpr int kSweepsWithOtherPlanes = 4;
 /// Follow them: in boxes round what is bad, as often as it takes.
 constexpr double kHalfEdgeOfBoxes = 5.0;  ///< spacings
 constexpr int kRoundsInBoxes = 3;
-constexpr int kMostSweepsOfBoxes = 12;
+constexpr int kMostSweepsOfBoxes = 20;
 
 /// How long it takes, for those who wait: the first has the most to do, those of boxes touch little.
 constexpr double effort(const Sweep& sweep) { return sweep.rounds * (&sweep == &kSweeps[0] ? 3 : 1); }

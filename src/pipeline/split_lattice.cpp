@@ -366,13 +366,21 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
   parallel_for_workers(tasks.size(), threads, kTasksAtOnce, [&] {
     return [&, atoms = LocalAtoms(field_), around = CellKey{{}, -1}, tracer = FaceTracer(field_, lattice_),
             roots = std::vector<FaceRoot>()](std::size_t t) mutable {
+      const CellKey& leaf = tasks[t].leaf;
       if (!(tasks[t].cell == around)) atoms.move_to(cell_box(lattice_, around = tasks[t].cell));
       tracer.take_atoms_from(atoms);
+      std::optional<LocalModel> in_leaf;  // made when a face needs a certificate
       for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
         const LatticeKey& face = faces[i];
         const std::int64_t size = fine_size(face.level);
         const FineIndex end = moved(moved(face.lo(), first_axis(face.axis), size), second_axis(face.axis), size);
         collect_face_roots(face, roots);
+        if (certificates[i] == kFaceUncertified) {
+          if (!in_leaf) {
+            in_leaf.emplace(atoms.within(proof_reach(leaf.level)), field_.decay(), cell_box(lattice_, leaf));
+          }
+          certificates[i] = certify_face(*in_leaf, face.axis, lattice_box(lattice_, face.lo(), end));
+        }
         tracer.set_plain(face.level <= kLastPlainLevel);
         curves[i] = tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificates[i], roots,
                                  fold_axes(face));
