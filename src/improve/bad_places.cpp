@@ -17,13 +17,13 @@ const double kHalfASharpTurn = std::cos(0.5 * (kSharpestTurn - 0.1) * std::numbe
 /// The numbers of the triangles for which choose() says so, in rising order.
 template <typename Choose>
 std::vector<std::uint32_t> choose_triangles(const WholeMesh& mesh, int threads, const Choose& choose) {
-  std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
-  parallel_for(parts.size(), threads, [&](std::size_t i) {
-    const std::size_t end = std::min(mesh.triangles.size(), (i + 1) * kTrianglesAtOnce);
-    for (std::size_t t = i * kTrianglesAtOnce; t < end; ++t) {
-      if (choose(mesh.triangles[t])) parts[i].push_back(static_cast<std::uint32_t>(t));
-    }
-  });
+  std::vector<std::vector<std::uint32_t>> parts(mesh.triangles.size() / kTrianglesAtOnce + 1);
+  parallel_for_chunks(mesh.triangles.size(), kTrianglesAtOnce, threads,
+                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
+                        for (std::size_t t = first; t < last; ++t) {
+                          if (choose(mesh.triangles[t])) parts[chunk].push_back(static_cast<std::uint32_t>(t));
+                        }
+                      });
   std::vector<std::uint32_t> chosen;
   for (const auto& part : parts) chosen.insert(chosen.end(), part.begin(), part.end());
   return chosen;
@@ -81,14 +81,14 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
   return bad;
 }
 
-std::vector<Box> boxes_round(const WholeMesh& mesh, const std::vector<std::uint32_t>& bad, double half_edge) {
+std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
   std::vector<Box> boxes;
   BoxGrid grid(2.0 * half_edge);
-  for (const std::uint32_t v : bad) {
+  for (const Vec3& place : places) {
     Box box;
     for (int k = 0; k < 3; ++k) {
-      box.lo[k] = mesh.at[v][k] - half_edge;
-      box.hi[k] = mesh.at[v][k] + half_edge;
+      box.lo[k] = place[k] - half_edge;
+      box.hi[k] = place[k] + half_edge;
     }
     bool is_free = true;
     grid.visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
@@ -96,6 +96,11 @@ std::vector<Box> boxes_round(const WholeMesh& mesh, const std::vector<std::uint3
     grid.add(box, static_cast<std::uint32_t>(boxes.size()));
     boxes.push_back(box);
   }
+  std::erase_if(places, [&](const Vec3& place) {
+    bool is_taken = false;
+    grid.visit({place, place}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place); });
+    return is_taken;
+  });
   return boxes;
 }
 

@@ -14,7 +14,7 @@ inline constexpr double kLeastAngle = 31.0;
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads);
 
-/// Cubes round bad vertices in their order, as many as have no point in common.
-std::vector<Box> boxes_round(const WholeMesh& mesh, const std::vector<std::uint32_t>& bad, double half_edge);
+/// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
+std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge);
 
 }  // namespace gaussmesh

@@ -72,18 +72,29 @@ double mean_edge(const WholeMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// Makes only those vertices active that are near sharp edges or bad triangles. @return whether there are any
-bool activate_bad_places(BlockMesh& mesh) {
+std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : vertices) places.push_back(mesh.at[v]);
+  return places;
+}
+
+/// Corners of bad triangles, as those of sharp edges are found.
+std::vector<std::uint32_t> find_bad_triangles(const BlockMesh& mesh) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
+  std::vector<std::uint32_t> bad;
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
+    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= least_sine) continue;
+    for (const std::uint32_t v : c.triangle(t)) bad.push_back(v);
+  }
+  return bad;
+}
+
+/// Makes only those vertices active that are near some.
+void activate_round(BlockMesh& mesh, std::vector<std::uint32_t> front) {
   constexpr int kRings = 4;
   const HalfEdgeMesh& c = mesh.connectivity;
   std::fill(mesh.is_active.begin(), mesh.is_active.end(), std::uint8_t{0});
-  std::vector<std::uint32_t> front = refine_sharp_edges(mesh);
-  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
-  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
-    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= least_sine) continue;
-    for (const std::uint32_t v : c.triangle(t)) front.push_back(v);
-  }
-  const bool any = !front.empty();
   for (const std::uint32_t v : front) mesh.is_active[v] = 1;
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<std::uint32_t> next;
@@ -97,7 +108,6 @@ bool activate_bad_places(BlockMesh& mesh) {
     }
     front = std::move(next);
   }
-  return any;
 }
 
 void run_round(BlockMesh& mesh, SheetGuard& guard, BlockField& field, Accuracy accuracy) {
@@ -121,14 +131,22 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
-  refine_sharp_edges(mesh);
+  refine(mesh, find_sharp_edges(mesh));
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
 }
 
 /// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
-void mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets, Guarding guarding) {
+/// @return places that are still bad
+std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
+                             Guarding guarding) {
   BlockField field(whole_field, mesh.box);
-  for (int round = 0; round < kRoundsInBoxes && activate_bad_places(mesh); ++round) {
+  for (int round = 0;; ++round) {
+    const std::vector<std::uint32_t> sharp = find_sharp_edges(mesh);
+    std::vector<std::uint32_t> bad = find_bad_triangles(mesh);
+    bad.insert(bad.end(), sharp.begin(), sharp.end());
+    if (bad.empty() || round == kRoundsInBoxes) return places_of(mesh, bad);
+    refine(mesh, sharp);
+    activate_round(mesh, std::move(bad));
     find_wanted_sizes(mesh, field, targets);
     SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
     cut_to_size(mesh, guard, field, Accuracy::kExact);
@@ -163,7 +181,7 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     std::atomic<int> blocks_done = 0;
     parallel_for(blocks.size(), threads, [&](std::size_t b) {
       BlockMesh block = blocks.extract(b);
-      work(block);
+      work(b, block);
       blocks.store(b, std::move(block));
       if (on_progress) on_progress((done + effort * ++blocks_done / static_cast<double>(blocks.size())) / all);
     });
@@ -173,8 +191,8 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   int number = 0;
   for (const Sweep& sweep : kSweeps) {
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
-    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}), effort(sweep),
-               [&](BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
+    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), effort(sweep),
+               [&](std::size_t, BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
@@ -182,11 +200,15 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     }
   }
   const double half_edge = kHalfEdgeOfBoxes * targets.spacing;
+  std::vector<Vec3> bad;  // places; where none is known the whole mesh is looked at
   for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
-    std::vector<Box> boxes = boxes_round(mesh, find_bad_vertices(mesh, threads), half_edge);
-    if (boxes.empty()) break;
-    mesh = run(MeshBlocks(std::move(mesh), std::move(boxes), 2.0 * half_edge), kEffortInBoxes,
-               [&](BlockMesh& block) { mend_block(block, field, now, guarding); });
+    if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
+    if (bad.empty()) break;
+    const std::vector<Box> boxes = take_boxes_round(bad, half_edge);
+    std::vector<std::vector<Vec3>> left(boxes.size());
+    mesh = run(MeshBlocks(std::move(mesh), boxes, 2.0 * half_edge, threads), kEffortInBoxes,
+               [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field, now, guarding); });
+    for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
   return finish(std::move(mesh));

@@ -1,6 +1,6 @@
 #include "improve/mesh_blocks.h"
 
-#include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/sort_and_unite.h"
@@ -8,20 +8,67 @@
 namespace gaussmesh {
 namespace {
 
-/// Lists by block, from pairs of block and member in the order of the members.
-void fill_lists(const std::vector<std::array<std::uint32_t, 2>>& pairs, std::size_t blocks,
-                std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& members) {
+/// Members that a thread looks at in one go.
+constexpr std::size_t kMembersAtOnce = 65536;
+
+/// No block's.
+constexpr std::uint32_t kNowhere = HalfEdgeMesh::kNone;
+
+/// Lists the numbers 0 .. count - 1 by block, in rising order. @param block_of  kNowhere: in no list
+template <typename BlockOf>
+void list_by_block(std::size_t count, std::size_t blocks, int threads, const BlockOf& block_of,
+                   std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& members) {
+  // How many each part has for each block, and then where they begin in the lists.
+  std::vector<std::vector<std::uint32_t>> at(count / kMembersAtOnce + 1);
+  parallel_for_chunks(count, kMembersAtOnce, threads, [&](std::size_t chunk, std::size_t from, std::size_t to) {
+    at[chunk].assign(blocks, 0);
+    for (std::size_t i = from; i < to; ++i) {
+      const std::uint32_t block = block_of(i);
+      if (block != kNowhere) ++at[chunk][block];
+    }
+  });
   first.assign(blocks + 1, 0);
-  for (const auto& p : pairs) ++first[p[0] + 1];
-  for (std::size_t b = 0; b < blocks; ++b) first[b + 1] += first[b];
-  members.resize(pairs.size());
-  std::vector<std::uint32_t> fill(first.begin(), first.end() - 1);
-  for (const auto& p : pairs) members[fill[p[0]]++] = p[1];
+  for (std::size_t b = 0; b < blocks; ++b) {
+    first[b + 1] = first[b];
+    for (auto& part : at) {
+      if (!part.empty()) first[b + 1] += std::exchange(part[b], first[b + 1]);
+    }
+  }
+  members.resize(first[blocks]);
+  parallel_for_chunks(count, kMembersAtOnce, threads, [&](std::size_t chunk, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const std::uint32_t block = block_of(i);
+      if (block != kNowhere) members[at[chunk][block]++] = static_cast<std::uint32_t>(i);
+    }
+  });
+}
+
+Box box_of(const WholeMesh& mesh, const Triangle& v) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    const auto [least, most] = std::minmax({mesh.at[v[0]][k], mesh.at[v[1]][k], mesh.at[v[2]][k]});
+    box.lo[k] = least;
+    box.hi[k] = most;
+  }
+  return box;
+}
+
+/// The largest extent of any triangle along any axis.
+double longest_extent(const WholeMesh& mesh, int threads) {
+  std::vector<double> longest(mesh.triangles.size() / kMembersAtOnce + 1, 0.0);
+  parallel_for_chunks(mesh.triangles.size(), kMembersAtOnce, threads,
+                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
+                        for (std::size_t t = first; t < last; ++t) {
+                          const Box box = box_of(mesh, mesh.triangles[t]);
+                          for (int k = 0; k < 3; ++k) longest[chunk] = std::max(longest[chunk], box.hi[k] - box.lo[k]);
+                        }
+                      });
+  return *std::max_element(longest.begin(), longest.end());
 }
 
 }  // namespace
 
-MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift)
+MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift, int threads)
     : mesh_(std::move(whole)), block_of_(mesh_.at.size()) {
   BoxGrid grid(edge, shift);
   BoxGrid::Cube last{};
@@ -39,79 +86,90 @@ MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift)
     }
     block_of_[v] = blocks[0];
   }
-  list_members();
-  list_reaching(grid);
+  list_members(threads);
+  list_reaching(grid, between_);
 }
 
-MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most)
+MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int threads)
     : mesh_(std::move(whole)), boxes_(std::move(boxes)), block_of_(mesh_.at.size()) {
-  BoxGrid grid(most);
-  for (std::uint32_t b = 0; b < boxes_.size(); ++b) grid.add(boxes_[b], b);
-  for (std::uint32_t v = 0; v < mesh_.at.size(); ++v) {
-    block_of_[v] = static_cast<std::uint32_t>(boxes_.size());
-    grid.visit({mesh_.at[v], mesh_.at[v]}, [&](std::uint32_t b) {
-      if (is_in(boxes_[b], mesh_.at[v])) block_of_[v] = b;
-    });
+  // A triangle that reaches into a box has its corners within its own extent of it.
+  const double extent = longest_extent(mesh_, threads);
+  BoxGrid near(most);
+  for (std::uint32_t b = 0; b < boxes_.size(); ++b) {
+    Box wide = boxes_[b];
+    for (int k = 0; k < 3; ++k) {
+      wide.lo[k] -= extent;
+      wide.hi[k] += extent;
+    }
+    near.add(wide, b);
   }
-  list_members();
-  list_reaching(grid);
+  std::vector<std::uint8_t> is_near(mesh_.at.size(), 0);
+  parallel_for_chunks(mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    BoxGrid grid = near;  // which remembers where it was asked last
+    for (std::size_t v = first; v < last; ++v) {
+      const Vec3& p = mesh_.at[v];
+      block_of_[v] = kNowhere;
+      grid.visit({p, p}, [&](std::uint32_t b) {
+        is_near[v] = 1;
+        if (is_in(boxes_[b], p)) block_of_[v] = b;
+      });
+    }
+  });
+  list_members(threads);
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Triangle& v = mesh_.triangles[t];
+    if (is_near[v[0]] && !is_in_block(v)) others.push_back(t);
+  }
+  list_reaching(near, others);
 }
 
-void MeshBlocks::list_members() {
-  const std::size_t slots = boxes_.size() + 1;
-  first_vertex_.assign(slots + 1, 0);
-  for (const std::uint32_t b : block_of_) ++first_vertex_[b + 1];
-  for (std::size_t b = 0; b < slots; ++b) first_vertex_[b + 1] += first_vertex_[b];
+/// Whether all corners are in one block.
+bool MeshBlocks::is_in_block(const Triangle& t) const {
+  const std::uint32_t b = block_of_[t[0]];
+  return b != kNowhere && b == block_of_[t[1]] && b == block_of_[t[2]];
+}
+
+void MeshBlocks::list_members(int threads) {
+  list_by_block(block_of_.size(), boxes_.size(), threads, [&](std::size_t v) { return block_of_[v]; }, first_vertex_,
+                vertices_);
   local_.resize(block_of_.size());
-  vertices_.resize(block_of_.size());
-  std::vector<std::uint32_t> fill(first_vertex_.begin(), first_vertex_.end() - 1);
-  for (std::uint32_t v = 0; v < block_of_.size(); ++v) {
-    const std::uint32_t b = block_of_[v], at = fill[b]++;
-    local_[v] = at - first_vertex_[b];
-    vertices_[at] = v;
-  }
-  const auto is_between = [&](const Triangle& t) {
-    return block_of_[t[0]] != block_of_[t[1]] || block_of_[t[0]] != block_of_[t[2]];
-  };
-  first_triangle_.assign(slots + 1, 0);
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (is_between(mesh_.triangles[t])) {
-      between_.push_back(t);
-    } else {
-      ++first_triangle_[block_of_[mesh_.triangles[t][0]] + 1];
-    }
-  }
-  for (std::size_t b = 0; b < slots; ++b) first_triangle_[b + 1] += first_triangle_[b];
-  triangles_.resize(first_triangle_.back());
-  fill.assign(first_triangle_.begin(), first_triangle_.end() - 1);
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (!is_between(mesh_.triangles[t])) triangles_[fill[block_of_[mesh_.triangles[t][0]]]++] = t;
-  }
+  parallel_for(boxes_.size(), threads, [&](std::size_t b) {
+    for (std::uint32_t i = first_vertex_[b]; i < first_vertex_[b + 1]; ++i) local_[vertices_[i]] = i - first_vertex_[b];
+  });
+  list_by_block(mesh_.triangles.size(), boxes_.size(), threads, [&](std::size_t t) {
+    const Triangle& triangle = mesh_.triangles[t];
+    return is_in_block(triangle) ? block_of_[triangle[0]] : kNowhere;
+  }, first_triangle_, triangles_);
+  std::vector<std::vector<std::uint32_t>> between(mesh_.triangles.size() / kMembersAtOnce + 1);
+  parallel_for_chunks(mesh_.triangles.size(), kMembersAtOnce, threads,
+                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
+                        for (std::size_t t = first; t < last; ++t) {
+                          if (!is_in_block(mesh_.triangles[t])) between[chunk].push_back(static_cast<std::uint32_t>(t));
+                        }
+                      });
+  for (const auto& part : between) between_.insert(between_.end(), part.begin(), part.end());
   stored_.resize(boxes_.size());
 }
 
-/// Lists the triangles of no block that reach into its box.
-void MeshBlocks::list_reaching(BoxGrid& grid) {
+/// Lists the ones of some triangles that reach into each box.
+void MeshBlocks::list_reaching(BoxGrid& grid, std::span<const std::uint32_t> triangles) {
   std::vector<std::array<std::uint32_t, 2>> reaching;
-  const auto list = [&](std::uint32_t t) {
-    Box box;
-    const Triangle& v = mesh_.triangles[t];
-    for (int k = 0; k < 3; ++k) {
-      const auto [least, most] = std::minmax({mesh_.at[v[0]][k], mesh_.at[v[1]][k], mesh_.at[v[2]][k]});
-      box.lo[k] = least;
-      box.hi[k] = most;
-    }
+  for (const std::uint32_t t : triangles) {
+    const Box box = box_of(mesh_, mesh_.triangles[t]);
     const std::size_t first = reaching.size();
     grid.visit(box, [&](std::uint32_t b) {
       const auto is_listed = [&](const auto& pair) { return pair[0] == b; };
       const auto begin = reaching.begin() + static_cast<std::ptrdiff_t>(first);
       if (boxes_meet(box, boxes_[b]) && std::none_of(begin, reaching.end(), is_listed)) reaching.push_back({b, t});
     });
-  };
-  for (const std::uint32_t t : between_) list(t);
-  const std::size_t rest = boxes_.size();
-  for (std::uint32_t i = first_triangle_[rest]; i < first_triangle_[rest + 1]; ++i) list(triangles_[i]);
-  fill_lists(reaching, boxes_.size(), first_fixed_, fixed_);
+  }
+  first_fixed_.assign(boxes_.size() + 1, 0);
+  for (const auto& pair : reaching) ++first_fixed_[pair[0] + 1];
+  for (std::size_t b = 0; b < boxes_.size(); ++b) first_fixed_[b + 1] += first_fixed_[b];
+  fixed_.resize(reaching.size());
+  std::vector<std::uint32_t> fill(first_fixed_.begin(), first_fixed_.end() - 1);
+  for (const auto& [b, t] : reaching) fixed_[fill[b]++] = t;
 }
 
 BlockMesh MeshBlocks::extract(std::size_t block) const {
@@ -186,29 +244,30 @@ void MeshBlocks::store(std::size_t block, BlockMesh&& worked) {
 }
 
 WholeMesh MeshBlocks::join(int threads) && {
-  const std::size_t rest = boxes_.size();
-  const std::uint32_t rest_vertices = first_vertex_[rest + 1] - first_vertex_[rest];
+  // What is in no block stays in the arrays that it is in, so that the room is not needed twice.
+  std::uint32_t rest_vertices = 0;
+  for (std::uint32_t v = 0; v < block_of_.size(); ++v) {
+    if (block_of_[v] != kNowhere) continue;
+    mesh_.move(v, rest_vertices);
+    local_[v] = rest_vertices++;
+  }
   std::vector<std::uint32_t> first_vertex(1, rest_vertices);
-  for (const Stored& block : stored_) {
-    first_vertex.push_back(first_vertex.back() + static_cast<std::uint32_t>(block.part.at.size()));
-  }
-  // The rest and the triangles between stay in the arrays that they are in, so that the room is not needed twice.
-  std::uint32_t kept = 0;
-  for (const Triangle& t : mesh_.triangles) {
-    if (block_of_[t[0]] != rest && block_of_[t[0]] == block_of_[t[1]] && block_of_[t[0]] == block_of_[t[2]]) continue;
-    Triangle renumbered = t;
-    for (std::uint32_t& v : renumbered) {
-      const std::uint32_t block = block_of_[v];
-      v = block == rest ? local_[v] : first_vertex[block] + stored_[block].number[local_[v]];
-    }
-    mesh_.triangles[kept++] = renumbered;
-  }
+  const auto kept = static_cast<std::uint32_t>(between_.size());
   std::vector<std::uint32_t> first_triangle(1, kept);
   for (const Stored& block : stored_) {
+    first_vertex.push_back(first_vertex.back() + static_cast<std::uint32_t>(block.part.at.size()));
     first_triangle.push_back(first_triangle.back() + static_cast<std::uint32_t>(block.part.triangles.size()));
   }
-  for (std::uint32_t i = 0; i < rest_vertices; ++i) mesh_.move(vertices_[first_vertex_[rest] + i], i);
-  for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_}) *list = std::vector<std::uint32_t>();
+  parallel_for_chunks(kept, kMembersAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::uint32_t& v : mesh_.triangles[between_[i]]) {
+        const std::uint32_t block = block_of_[v];
+        v = block == kNowhere ? local_[v] : first_vertex[block] + stored_[block].number[local_[v]];
+      }
+    }
+  });
+  for (std::uint32_t i = 0; i < kept; ++i) mesh_.triangles[i] = mesh_.triangles[between_[i]];
+  for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_, &between_}) *list = std::vector<std::uint32_t>();
   mesh_.resize_beyond(rest_vertices, first_vertex.back());
   resize_beyond(mesh_.triangles, kept, first_triangle.back());
   parallel_for(stored_.size(), threads, [&](std::size_t b) {

@@ -1,6 +1,7 @@
 // Cutting a mesh into blocks of space that can be worked on side by side, and putting them together again.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "improve/block_mesh.h"
@@ -24,11 +25,11 @@ class MeshBlocks {
   /// @param edge   A, of the cubes: many times that of the triangles
   /// @param shift  a point where planes meet
   /// Cost: O(n). Memory: 9 bytes a triangle beside the mesh.
-  MeshBlocks(WholeMesh mesh, double edge, const Vec3& shift);
+  MeshBlocks(WholeMesh mesh, double edge, const Vec3& shift, int threads);
 
   /// The blocks are given: what is outside of all stays as it is.
   /// @param boxes  without common points; none is larger than `most` (A) along any axis
-  MeshBlocks(WholeMesh mesh, std::vector<Box> boxes, double most);
+  MeshBlocks(WholeMesh mesh, std::vector<Box> boxes, double most, int threads);
 
   std::size_t size() const { return boxes_.size(); }
 
@@ -47,16 +48,17 @@ class MeshBlocks {
     std::vector<std::uint32_t> number;  ///< of the block's vertices, those of before first, in what is kept
     WholeMesh part;
   };
-  void list_members();
-  void list_reaching(BoxGrid& grid);
+  bool is_in_block(const Triangle& t) const;
+  void list_members(int threads);
+  void list_reaching(BoxGrid& grid, std::span<const std::uint32_t> triangles);
 
   WholeMesh mesh_;
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> block_of_, local_;            ///< by vertex; the block behind the last is the rest
-  std::vector<std::uint32_t> first_vertex_, vertices_;     ///< by block, and of the rest
-  std::vector<std::uint32_t> first_triangle_, triangles_;  ///< the same
+  std::vector<std::uint32_t> block_of_, local_;            ///< by vertex
+  std::vector<std::uint32_t> first_vertex_, vertices_;     ///< by block
+  std::vector<std::uint32_t> first_triangle_, triangles_;  ///< by block
   std::vector<std::uint32_t> first_fixed_, fixed_;         ///< by block: triangles that reach into its box
-  std::vector<std::uint32_t> between_;                     ///< triangles with corners in several of them
+  std::vector<std::uint32_t> between_;                     ///< triangles of no block
   std::vector<Stored> stored_;
 };
 

@@ -1,5 +1,7 @@
 #include "improve/size_field.h"
 
+#include "core/sort_and_unite.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -113,23 +115,21 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   GrowthLimit(mesh).apply();
 }
 
-std::vector<Index> refine_sharp_edges(BlockMesh& mesh) {
-  constexpr float kSmaller = 0.8f;
-  constexpr float kLeastRefinement = 0.4f;
+std::vector<Index> find_sharp_edges(const BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
-  std::vector<std::uint8_t> is_sharp(mesh.at.size(), 0);
+  std::vector<Index> sharp;
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!c.has_triangle(h / 3) || c.twin(h) < h || !c.is_inner(c.from(h)) || !c.is_inner(c.to(h))) continue;
     if (!turn_sharply(area_normal(mesh, h / 3), area_normal(mesh, c.twin(h) / 3))) continue;
-    for (const Index v : {c.from(h), c.to(h), c.opposite(h), c.opposite(c.twin(h))}) is_sharp[v] = 1;
+    for (const Index v : {c.from(h), c.to(h), c.opposite(h), c.opposite(c.twin(h))}) sharp.push_back(v);
   }
-  std::vector<Index> sharp;
-  for (Index v = 0; v < c.vertices(); ++v) {
-    if (!is_sharp[v]) continue;
-    mesh.refinement[v] = std::max(kLeastRefinement, kSmaller * mesh.refinement[v]);
-    sharp.push_back(v);
-  }
+  sort_and_unite(sharp);
   return sharp;
+}
+
+void refine(BlockMesh& mesh, const std::vector<Index>& vertices) {
+  constexpr float kSmaller = 0.8f, kLeastRefinement = 0.4f;
+  for (const Index v : vertices) mesh.refinement[v] = std::max(kLeastRefinement, kSmaller * mesh.refinement[v]);
 }
 
 }  // namespace gaussmesh

@@ -38,7 +38,10 @@ inline constexpr double kLeastSizeOfAll = 2e-5;
 /// Cost: one sum over the atoms nearby for each vertex whose curvature is not known.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 
-/// Asks for smaller triangles, by a fifth, where neighbours turn_sharply() against each other. @return the vertices there
-std::vector<std::uint32_t> refine_sharp_edges(BlockMesh& mesh);
+/// The corners of neighbours that turn_sharply() against each other, in rising order.
+std::vector<std::uint32_t> find_sharp_edges(const BlockMesh& mesh);
+
+/// Asks for smaller triangles at some vertices, by a fifth.
+void refine(BlockMesh& mesh, const std::vector<std::uint32_t>& vertices);
 
 }  // namespace gaussmesh

@@ -349,10 +349,11 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
     for (const LeafCell& leaf : cell.leaves) {
       const std::size_t first_face = faces.size();
       for (int axis = 0; axis < 3; ++axis) {
-        for (const std::int64_t by : {std::int64_t{0}, fine_size(leaf.key.level)}) {
-          const FineIndex lo = moved(leaf.key.lo, axis, by);
-          const LatticeKey face(lo, axis, leaf.key.level);
-          if (is_divided(axis, lo, leaf.key.level) || faces_.contains(face)) continue;
+        const std::int64_t size = fine_size(leaf.key.level);
+        for (const std::int64_t by : {std::int64_t{0}, size}) {
+          const LatticeKey face(moved(leaf.key.lo, axis, by), axis, leaf.key.level);
+          const CellKey beside{moved(leaf.key.lo, axis, by == 0 ? -size : size), leaf.key.level};
+          if (split_.contains(beside) || faces_.contains(face)) continue;
           const auto [number, is_new] = faces.insert(face);
           if (is_new) certificates.push_back(kFaceUncertified);
           const int known = certificates[number] | certificate_in_face(leaf.single_axes, axis);

@@ -68,7 +68,12 @@ TEST_CASE("boxes round bad vertices have no common points, and none is far from 
   const WholeMesh mesh = whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)), 0.8f);
   const std::vector<std::uint32_t> bad = find_bad_vertices(mesh, 1);
   const double half_edge = 1.0;
-  const std::vector<Box> boxes = boxes_round(mesh, bad, half_edge);
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : bad) places.push_back(mesh.at[v]);
+  const std::vector<Box> boxes = take_boxes_round(places, half_edge);
+  for (const Vec3& place : places) {
+    CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_in(box, place); }));
+  }
   REQUIRE(boxes.size() > 3);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes_meet(boxes[i], boxes[j]));

@@ -32,7 +32,7 @@ TEST_CASE("blocks cut out and joined again are the mesh as it was") {
   const WholeMesh mesh = ring_mesh();
   for (const double edge : {1.7, 4.0, 100.0}) {
     CAPTURE(edge);
-    MeshBlocks blocks(mesh, edge, {0.3, 0.3, 0.3});
+    MeshBlocks blocks(mesh, edge, {0.3, 0.3, 0.3}, 2);
     CHECK((edge > 50.0 || blocks.size() > 1));
     for (std::size_t b = blocks.size(); b-- > 0;) blocks.store(b, blocks.extract(b));
     const WholeMesh joined = std::move(blocks).join(2);
@@ -54,7 +54,7 @@ TEST_CASE("boxes cut out of a mesh and put back leave it as it was, and take wha
     if (std::none_of(boxes.begin(), boxes.end(), meets)) boxes.push_back(box);
   }
   REQUIRE(boxes.size() > 1);
-  MeshBlocks blocks(mesh, boxes, 2.0);
+  MeshBlocks blocks(mesh, boxes, 2.0, 2);
   REQUIRE(blocks.size() == boxes.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     BlockMesh block = blocks.extract(b);
@@ -76,7 +76,7 @@ TEST_CASE("boxes cut out of a mesh and put back leave it as it was, and take wha
 
 TEST_CASE("a block's triangles lie in its box, and what reaches into the box is there") {
   const WholeMesh mesh = ring_mesh();
-  const MeshBlocks blocks(mesh, 2.5, {0.1, 0.2, 0.3});
+  const MeshBlocks blocks(mesh, 2.5, {0.1, 0.2, 0.3}, 1);
   std::size_t inner = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const BlockMesh block = blocks.extract(b);
