@@ -58,8 +58,8 @@ void parallel_for(std::size_t count, int threads, const Work& work) {
   parallel_for_workers(count, threads, 1, [&] { return [&](std::size_t i) { work(i); }; });
 }
 
-/// Calls work(chunk, first, last) for the parts of 0 .. count - 1, of `size` each but the last: they are the same for any
-/// number of threads.
+/// Calls work(chunk, first, last) for parts of 0 .. count - 1, first .. last - 1 of `size` each but for the last chunk:
+/// the same ones for any number of threads.
 template <typename Work>
 void parallel_for_chunks(std::size_t count, std::size_t size, int threads, const Work& work) {
   parallel_for((count + size - 1) / size, threads, [&](std::size_t chunk) {

@@ -11,7 +11,7 @@ namespace {
 /// Triangles that a thread looks at in one go.
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
-/// Of two neighbours that turn sharply one is turned at least half as far from the field's normal at each common corner.
+/// Of two neighbours that turn sharply one is turned at least half as far from the normal at each common corner.
 const double kHalfASharpTurn = std::cos(0.5 * (kSharpestTurn - 0.1) * std::numbers::pi / 180.0);
 
 /// The numbers of the triangles for which choose() says so, in rising order.

@@ -78,7 +78,7 @@ std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uin
   return places;
 }
 
-/// Corners of bad triangles, as those of sharp edges are found.
+/// The corners of triangles with an angle that is too small.
 std::vector<std::uint32_t> find_bad_triangles(const BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
   const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
@@ -90,7 +90,7 @@ std::vector<std::uint32_t> find_bad_triangles(const BlockMesh& mesh) {
   return bad;
 }
 
-/// Makes only those vertices active that are near some.
+/// Makes only those vertices active that are some rings at most from others.
 void activate_round(BlockMesh& mesh, std::vector<std::uint32_t> front) {
   constexpr int kRings = 4;
   const HalfEdgeMesh& c = mesh.connectivity;

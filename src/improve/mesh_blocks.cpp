@@ -267,7 +267,9 @@ WholeMesh MeshBlocks::join(int threads) && {
     }
   });
   for (std::uint32_t i = 0; i < kept; ++i) mesh_.triangles[i] = mesh_.triangles[between_[i]];
-  for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_, &between_}) *list = std::vector<std::uint32_t>();
+  for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_, &between_}) {
+    *list = std::vector<std::uint32_t>();
+  }
   mesh_.resize_beyond(rest_vertices, first_vertex.back());
   resize_beyond(mesh_.triangles, kept, first_triangle.back());
   parallel_for(stored_.size(), threads, [&](std::size_t b) {

@@ -39,8 +39,8 @@ class MeshBlocks {
   /// Keeps what became of a block. Thread-safe for different blocks.
   void store(std::size_t block, BlockMesh&& worked);
 
-  /// The mesh of what is in no block and of all stored blocks, one after the other. All blocks have been stored. What was
-  /// cut up is given back first: there are never more than two whole meshes.
+  /// The mesh of what is in no block and of all stored blocks, one after the other. All blocks have been stored. What
+  /// was cut up is given back first: there are never more than two whole meshes.
   WholeMesh join(int threads) &&;
 
  private:

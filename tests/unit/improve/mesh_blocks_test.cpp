@@ -60,7 +60,8 @@ TEST_CASE("boxes cut out of a mesh and put back leave it as it was, and take wha
     BlockMesh block = blocks.extract(b);
     std::size_t inside = 0, reaching = 0;
     for (const Triangle& t : mesh.triangles) {
-      const int corners = is_in(boxes[b], mesh.at[t[0]]) + is_in(boxes[b], mesh.at[t[1]]) + is_in(boxes[b], mesh.at[t[2]]);
+      int corners = 0;
+      for (const std::uint32_t v : t) corners += is_in(boxes[b], mesh.at[v]);
       inside += corners == 3;
       reaching += corners == 1 || corners == 2;
     }
