@@ -145,9 +145,9 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
 }
 
-/// Where triangles are improved, cells are split in which the surface turns by more than 90 degrees: what is too
+/// Where triangles are improved, cells are split in which the surface turns by more than 78 degrees: what is too
 /// coarse for its curvature cannot be mended by moving vertices.
-constexpr double kLeastCornerCosine = 0.0;
+constexpr double kLeastCornerCosine = 0.2;
 
 TraceDemands trace_demands(const MeshOptions& options) {
   return {options.spacing, options.improve ? kLeastCornerCosine : -1.0};
