@@ -174,6 +174,7 @@ bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std
   }
   for (int attempt = 0; attempt < kMostDirections && !cone_.empty(); ++attempt) {
     const Direction along = nearest_direction(cone_.middle());
+    if (along.axis == axis_) return false;  // the gradients cancel, and nothing in the face is nearest
     if (prove_along(proof_atoms_of(rect), model, along, kProofHalvings)) return pair_roots(rect, along, roots);
     add_to_cone(refuting_gradient_);
   }
