@@ -73,7 +73,7 @@ void handle_signals() {
 /// those that were freed before, whose room the smaller ones that follow then break up.
 void keep_large_arrays_apart() {
 #ifdef __GLIBC__
-  constexpr int kLargeArray = 1 << 18;  // bytes
+  constexpr int kLargeArray = 1 << 20;  // bytes
   mallopt(M_MMAP_THRESHOLD, kLargeArray);
 #endif
 }
