@@ -111,15 +111,19 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
     order[i + 3] = order[i] ^ 1;
   }
   std::stable_sort(order, order + 6, [&](int a, int b) { return open_parts[a] < open_parts[b]; });
+  // Whether a direction is proven for the cell, given what tells at once that it is for an eighth.
+  const auto is_proven = [&](const Direction& direction, const auto& holds_in) {
+    for (int child = 0; child < 8; ++child) {
+      if (holds_in(child)) continue;
+      if (depth_ <= 1 || !prove_parts(cell_atoms_, models[child], direction, depth_ - 1)) return false;
+    }
+    return true;
+  };
   for (const int direction : order) {
     if (refuted[direction]) continue;
     const int axis = direction / 2, sign = direction % 2 == 1 ? 1 : -1;
-    bool proven = true;
-    for (int child = 0; proven && child < 8; ++child) {
-      if (parts[child].proven >> direction & 1) continue;
-      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], along_axis(axis, sign), depth_ - 1);
-    }
-    if (proven) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
+    const auto holds_in = [&](int child) { return parts[child].proven >> direction & 1; };
+    if (is_proven(along_axis(axis, sign), holds_in)) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
   }
   // No axis: the surface bends too far. A direction in the midst of its gradients may do, and where it does not, one
   // nearer to the gradient that was against it.
@@ -130,13 +134,13 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   for (int attempt = 0; attempt < kMostDirections; ++attempt) {
     const Direction slanted = nearest_direction(cone.middle());
     if (!slanted.is_slanted()) break;
-    bool proven = true;
-    for (int child = 0; proven && child < 8; ++child) {
-      if (parts[child].proven == kAllDirections || proves(models[child].over_all(), slanted)) continue;
-      refuting_gradient_ = models[child].over_all().middle_gradient();
-      proven = depth_ > 1 && prove_parts(cell_atoms_, models[child], slanted, depth_ - 1);
-    }
-    if (proven) return {Kind::kMonotone, slanted, 0};
+    const auto holds_in = [&](int child) {
+      if (parts[child].proven == kAllDirections) return true;
+      const LocalModel::View whole_eighth = models[child].over_all();
+      refuting_gradient_ = whole_eighth.middle_gradient();  // unless parts of it tell better
+      return proves(whole_eighth, slanted);
+    };
+    if (is_proven(slanted, holds_in)) return {Kind::kMonotone, slanted, 0};
     cone.add(refuting_gradient_);
   }
   return {Kind::kUncertified, {}, 0};

@@ -1,7 +1,5 @@
 #include "improve/bad_places.h"
 
-#include <numbers>
-
 #include "core/parallel.h"
 #include "core/sort_and_unite.h"
 
@@ -12,7 +10,8 @@ namespace {
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
 /// Of two neighbours that turn sharply one is turned at least half as far from the normal at each common corner.
-const double kHalfASharpTurn = std::cos(0.5 * (kSharpestTurn - 0.1) * std::numbers::pi / 180.0);
+/// With room for the rounding of normals.
+const double kHalfASharpTurn = std::sqrt(0.5 * (1.0 + kSharpTurn)) + 1e-3;
 
 /// The numbers of the triangles for which choose() says so, in rising order.
 template <typename Choose>
@@ -63,14 +62,13 @@ void add_sharp_edges(const WholeMesh& mesh, const std::vector<std::uint8_t>& is_
 }  // namespace
 
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads) {
-  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
-  const TriangleQuality good{least_sine, kHalfASharpTurn};
+  const TriangleQuality good{kLeastSine, kHalfASharpTurn};
   std::vector<std::uint32_t> bad;
   std::vector<std::uint8_t> is_turned(mesh.at.size(), 0);
   for (const std::uint32_t number :
        choose_triangles(mesh, threads, [&](const Triangle& t) { return !is_at_least(mesh, t, good); })) {
     const Triangle& t = mesh.triangles[number];
-    if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < least_sine) bad.insert(bad.end(), t.begin(), t.end());
+    if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine) bad.insert(bad.end(), t.begin(), t.end());
     const Vec3 normal = area_normal(mesh, t);
     for (const std::uint32_t v : t) {
       if (dot(normal, mesh.normal[v]) < kHalfASharpTurn * length(normal)) is_turned[v] = 1;
@@ -85,11 +83,7 @@ std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
   std::vector<Box> boxes;
   BoxGrid grid(2.0 * half_edge);
   for (const Vec3& place : places) {
-    Box box;
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] = place[k] - half_edge;
-      box.hi[k] = place[k] + half_edge;
-    }
+    const Box box = widened({place, place}, half_edge);
     bool is_free = true;
     grid.visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
     if (!is_free) continue;

@@ -1,6 +1,7 @@
 // Where the whole mesh still has bad triangles, and boxes to work on them.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "improve/mesh_blocks.h"
@@ -9,6 +10,7 @@ namespace gaussmesh {
 
 /// The smallest angle that triangles are to have (degrees); a little above what is promised.
 inline constexpr double kLeastAngle = 31.0;
+inline const double kLeastSine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
 
 /// Corners of triangles with smaller angles, and of neighbours that turn_sharply() against each other, in rising order.
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.

@@ -108,15 +108,12 @@ FieldJet jet_of(const SecondSums<Real>& s, double d) {
 BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(field.decay()), box_(box) {
   cell_size_ = kCellSize;
   for (int k = 0; k < 3; ++k) cell_size_ = std::max(cell_size_, (box.hi[k] - box.lo[k]) / kMostCells);
-  Box wide = box;
   std::size_t count = 1;
   for (int k = 0; k < 3; ++k) {
-    wide.lo[k] -= kMargin * cell_size_;
-    wide.hi[k] += kMargin * cell_size_;
     cells_[k] = std::max(1, static_cast<int>(std::ceil((box.hi[k] - box.lo[k]) / cell_size_ - 1e-9)));
     count *= static_cast<std::size_t>(cells_[k]);
   }
-  field.collect_near(wide, atoms_, kExactCut);
+  field.collect_near(widened(box, kMargin * cell_size_), atoms_, kExactCut);
   is_rough_usable_ = atoms_.w_size <= kLargestRoughWeight;
   lists_.resize(count);
   rough_lists_.resize(count);

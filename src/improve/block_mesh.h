@@ -104,14 +104,13 @@ inline Vec3 area_normal(const MeshVertices& m, const Triangle& t) {
 }
 inline Vec3 area_normal(const BlockMesh& m, std::uint32_t t) { return area_normal(m, m.connectivity.triangle(t)); }
 
-/// Neighbours turn against each other by less than this (degrees).
-inline constexpr double kSharpestTurn = 58.7;
+/// Neighbours turn against each other by less than this (cosine; 58.7 degrees).
+inline constexpr double kSharpTurn = 0.52;
 
 /// Whether triangles with these normals, of any length, turn farther.
 inline bool turn_sharply(const Vec3& m, const Vec3& n) {
-  constexpr double kCosine = 0.52;
   const double cosine = dot(m, n);
-  return !(cosine > 0.0 && cosine * cosine >= kCosine * kCosine * dot(m, m) * dot(n, n));
+  return !(cosine > 0.0 && cosine * cosine >= kSharpTurn * kSharpTurn * dot(m, m) * dot(n, n));
 }
 
 /// What decides whether a triangle is good: its smallest angle, and how far it is turned from the field.

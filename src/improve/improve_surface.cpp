@@ -1,7 +1,6 @@
 #include "improve/improve_surface.h"
 
 #include <atomic>
-#include <numbers>
 
 #include "core/parallel.h"
 #include "improve/bad_places.h"
@@ -81,10 +80,9 @@ std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uin
 /// The corners of triangles with an angle that is too small.
 std::vector<std::uint32_t> find_bad_triangles(const BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
-  const double least_sine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
   std::vector<std::uint32_t> bad;
   for (std::uint32_t t = 0; t < c.triangles(); ++t) {
-    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= least_sine) continue;
+    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= kLeastSine) continue;
     for (const std::uint32_t v : c.triangle(t)) bad.push_back(v);
   }
   return bad;

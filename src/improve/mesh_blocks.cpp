@@ -95,14 +95,7 @@ MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int
   // A triangle that reaches into a box has its corners within its own extent of it.
   const double extent = longest_extent(mesh_, threads);
   BoxGrid near(most);
-  for (std::uint32_t b = 0; b < boxes_.size(); ++b) {
-    Box wide = boxes_[b];
-    for (int k = 0; k < 3; ++k) {
-      wide.lo[k] -= extent;
-      wide.hi[k] += extent;
-    }
-    near.add(wide, b);
-  }
+  for (std::uint32_t b = 0; b < boxes_.size(); ++b) near.add(widened(boxes_[b], extent), b);
   std::vector<std::uint8_t> is_near(mesh_.at.size(), 0);
   parallel_for_chunks(mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {
     BoxGrid grid = near;  // which remembers where it was asked last

@@ -23,6 +23,15 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline Vec3 as_vector(const Normal& n) { return {double(n[0]), double(n[1]), double(n[2])}; }
 
+/// A box with `by` (A) more on every side.
+inline Box widened(Box box, double by) {
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] -= by;
+    box.hi[k] += by;
+  }
+  return box;
+}
+
 /// The nearest place that has whole units as coordinates.
 inline CoordPoint to_units(const Vec3& p) {
   return {std::llround(p[0] * kUnitsPerAngstrom), std::llround(p[1] * kUnitsPerAngstrom),

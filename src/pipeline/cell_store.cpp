@@ -159,11 +159,6 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
                            static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)))};
 }
 
-std::optional<std::uint32_t> CellStore::find_brick(const BrickIndex& index) const {
-  const auto it = by_index_.find(index);
-  return it == by_index_.end() ? std::nullopt : std::optional(it->second);
-}
-
 FineIndex CellStore::lowest_corner(const Place& place) const {
   return gaussmesh::lowest_corner(bricks_[place.brick].index, cell(place).local);
 }

@@ -71,8 +71,6 @@ class CellStore {
   /// The cell with lowest corner `lo`, if the surface may cross it. `hint`: a brick to look in first.
   std::optional<Place> find(const FineIndex& lo, std::uint32_t hint = 0) const;
 
-  std::optional<std::uint32_t> find_brick(const BrickIndex& index) const;
-
   SurfaceCell& cell(const Place& place) { return bricks_[place.brick].cells[place.cell]; }
   const SurfaceCell& cell(const Place& place) const { return bricks_[place.brick].cells[place.cell]; }
   FineIndex lowest_corner(const Place& place) const;
