@@ -2,10 +2,11 @@
 #pragma once
 
 // Sanitizers run before the dynamic linker's resolvers are safe to call; other compilers and processors take the
-// portable code. All versions round alike: fused multiply-add is off (-ffp-contract=off).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define GAUSSMESH_SIMD_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+// portable code. Versions differ by roundings: wider lanes add in another order, and where the processor can, products
+// are fused with sums (src/CMakeLists.txt says in which files).
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define GAUSSMESH_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define GAUSSMESH_SIMD_CLONES
 #endif

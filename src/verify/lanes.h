@@ -1,6 +1,6 @@
 // Eight doubles at a time: the vectors that the judge's inner loops are written in, and an exponential of them.
 //
-// Lanes hold different points, and sums go over atoms in their order; so all processors round alike.
+// Lanes hold different points, and sums go over atoms in their order.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 // Functions so marked are compiled for several instruction sets, the best of which is chosen when the program
 // starts. Sanitizers run before the dynamic linker's resolvers may be called; other compilers and processors take
-// the portable code. Fused multiply-add is off (-ffp-contract=off).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define GAUSSMESH_LANE_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+// the portable code.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define GAUSSMESH_LANE_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define GAUSSMESH_LANE_CLONES
 #endif
