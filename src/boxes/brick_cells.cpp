@@ -16,14 +16,15 @@ BrickWalker::BrickWalker(const GaussianField& field, const Lattice& lattice)
 void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
   const FineIndex origin = brick_origin(brick);
   const std::int64_t size = kBrickCells * kFinePerCell;
-  field_.collect_near(lattice_box(lattice_, origin, {origin[0] + size, origin[1] + size, origin[2] + size}),
-                      brick_atoms_);
+  const Box box = lattice_box(lattice_, origin, {origin[0] + size, origin[1] + size, origin[2] + size});
+  field_.collect_near(box, brick_atoms_);
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i <= kBrickCells; ++i) {
-      planes_[axis][i] = to_angstrom(lattice_.plane(axis, origin[axis] + i * kFinePerCell));
+    for (int i = 0; i < BrickTables::kPlanes; ++i) {
+      planes_[axis][i] = to_angstrom(lattice_.plane(axis, origin[axis] + (i - 1) * kFinePerCell));
     }
   }
-  tables_.build(brick_atoms_, field_.decay(), planes_);
+  proof_atoms_.restrict_from(brick_atoms_, box, field_.decay(), kProofTruncation);
+  tables_.build(proof_atoms_, field_.decay(), planes_);
   for (int octant = 0; octant < 8; ++octant) {
     const std::array<int, 3> first{(octant & 1) * kOctantCells, (octant >> 1 & 1) * kOctantCells,
                                    (octant >> 2) * kOctantCells};
@@ -36,8 +37,12 @@ void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
 }
 
 Box BrickWalker::box_of(const std::array<int, 3>& first, int cells) const {
-  return {{planes_[0][first[0]], planes_[1][first[1]], planes_[2][first[2]]},
-          {planes_[0][first[0] + cells], planes_[1][first[1] + cells], planes_[2][first[2] + cells]}};
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = planes_[k][1 + first[k]];
+    box.hi[k] = planes_[k][1 + first[k] + cells];
+  }
+  return box;
 }
 
 void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& octant, const std::array<int, 3>& first,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
@@ -9,23 +10,28 @@
 namespace gaussmesh {
 namespace {
 
+constexpr int kPlanes = BrickTables::kPlanes;
+
 /// Atoms that are summed up at once: their tables stay in the cache.
 constexpr std::size_t kBlock = 256;
 
-/// A sum of products of three exponentials and a weight, each with a few roundings, over up to 1e6 atoms.
+/// Relative error of a sum of products of three exponentials and a weight, each with a few roundings, over up to 1e6
+/// atoms.
 constexpr double kSumError = 1e-9;
 
-/// Weights up to e^600 and three factors down to e^-700 each: what is cut off there is below this.
-constexpr double kUnderflow = 1e-30;
+/// Sums are taken to be at least this: weights up to e^600 and three factors down to e^-700 each lose 1e-30 at most.
+constexpr double kLeastSum = 1e-20;
 constexpr double kLargestExponent = 600.0;
 
-/// result[j] += sum of weight a[j], rows of `table` for j = 0 .. 8.
+/// result[i] += sum of weight t_i, rows of `table` for the planes i.
 GAUSSMESH_SIMD_CLONES
 void add_products(const double* weight, const double* table, std::size_t n, double* result) {
+  static_assert(kPlanes == 11);
   const double *t0 = table, *t1 = t0 + kBlock, *t2 = t1 + kBlock, *t3 = t2 + kBlock, *t4 = t3 + kBlock,
-               *t5 = t4 + kBlock, *t6 = t5 + kBlock, *t7 = t6 + kBlock, *t8 = t7 + kBlock;
-  double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0, s8 = 0;
-#pragma omp simd reduction(+ : s0, s1, s2, s3, s4, s5, s6, s7, s8)
+               *t5 = t4 + kBlock, *t6 = t5 + kBlock, *t7 = t6 + kBlock, *t8 = t7 + kBlock, *t9 = t8 + kBlock,
+               *t10 = t9 + kBlock;
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0, s8 = 0, s9 = 0, s10 = 0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3, s4, s5, s6, s7, s8, s9, s10)
   for (std::size_t i = 0; i < n; ++i) {
     const double a = weight[i];
     s0 += a * t0[i];
@@ -37,9 +43,11 @@ void add_products(const double* weight, const double* table, std::size_t n, doub
     s6 += a * t6[i];
     s7 += a * t7[i];
     s8 += a * t8[i];
+    s9 += a * t9[i];
+    s10 += a * t10[i];
   }
-  const double sums[] = {s0, s1, s2, s3, s4, s5, s6, s7, s8};
-  for (int j = 0; j <= kBrickCells; ++j) result[j] += sums[j];
+  const double sums[] = {s0, s1, s2, s3, s4, s5, s6, s7, s8, s9, s10};
+  for (int j = 0; j < kPlanes; ++j) result[j] += sums[j];
 }
 
 GAUSSMESH_SIMD_CLONES
@@ -48,12 +56,12 @@ void multiply(const double* a, const double* b, std::size_t n, double* result) {
   for (std::size_t i = 0; i < n; ++i) result[i] = a[i] * b[i];
 }
 
-/// exp(-d (x^2 - x0^2)) for the distances x of coordinates p from a plane and x0 from the brick's interval; x >= x0.
+/// exp(-d (x^2 - x0^2)) for the distances x of coordinates p from a plane and x0 from the interval of all planes.
 GAUSSMESH_SIMD_CLONES
-void fill_plane(const double* p, std::size_t n, double d, double brick_lo, double brick_hi, double plane, double* at) {
+void fill_plane(const double* p, std::size_t n, double d, double first, double last, double plane, double* at) {
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) {
-    const double below = brick_lo - p[i], above = p[i] - brick_hi;
+    const double below = first - p[i], above = p[i] - last;
     const double outside = below > above ? below : above;
     const double x0 = outside > 0.0 ? outside : 0.0;
     const double x = p[i] - plane;
@@ -61,15 +69,35 @@ void fill_plane(const double* p, std::size_t n, double d, double brick_lo, doubl
   }
 }
 
-/// The same for the least and the largest distance from the layer between two planes, from what fill_plane() gave for them.
 GAUSSMESH_SIMD_CLONES
-void fill_layer(const double* p, std::size_t n, double lo, double hi, const double* at_lo, const double* at_hi,
-                double* nearest, double* farthest) {
+void take_logarithms(double* values, std::size_t n) {
 #pragma omp simd
-  for (std::size_t i = 0; i < n; ++i) {
-    const double more = at_lo[i] > at_hi[i] ? at_lo[i] : at_hi[i];
-    farthest[i] = at_lo[i] > at_hi[i] ? at_hi[i] : at_lo[i];
-    nearest[i] = ((p[i] >= lo) & (p[i] <= hi)) ? 1.0 : more;
+  for (std::size_t i = 0; i < n; ++i) values[i] = vector_log(values[i] > kLeastSum ? values[i] : kLeastSum);
+}
+
+/// For a row of cells along x, the largest psi at their corners, and a bound that psi is not below in the cells.
+/// @param psi   at the lowest corner of the first cell; neighbours are 1, kPlanes and kPlanes^2 further
+/// @param loss  d (3/4) a^2, for each axis
+GAUSSMESH_SIMD_CLONES
+void bound_row(const double* psi, const double* loss, double* largest, double* least) {
+  for (int i = 0; i < kBrickCells; ++i) {
+    largest[i] = -std::numeric_limits<double>::infinity();
+    least[i] = std::numeric_limits<double>::infinity();
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const int is_right = corner & 1, is_back = corner >> 1 & 1, is_top = corner >> 2;
+    const double* at = psi + is_right + kPlanes * (is_back + kPlanes * is_top);
+    const double* behind[3] = {at + (is_right ? 1 : -1), at + (is_back ? kPlanes : -kPlanes),
+                               at + (is_top ? kPlanes * kPlanes : -kPlanes * kPlanes)};
+#pragma omp simd
+    for (int i = 0; i < kBrickCells; ++i) {
+      const double x = 0.5 * (at[i] - behind[0][i]) - loss[0];
+      const double y = 0.5 * (at[i] - behind[1][i]) - loss[1];
+      const double z = 0.5 * (at[i] - behind[2][i]) - loss[2];
+      const double bound = at[i] + ((x < 0.0 ? x : 0.0) + (y < 0.0 ? y : 0.0) + (z < 0.0 ? z : 0.0));
+      largest[i] = at[i] > largest[i] ? at[i] : largest[i];
+      least[i] = bound < least[i] ? bound : least[i];
+    }
   }
 }
 
@@ -78,25 +106,47 @@ double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - 
 }  // namespace
 
 void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& planes) {
-  cells_.fill(0xFF);
-  corners_.fill(Side::kUnknown);
-  constexpr std::size_t kSums = static_cast<std::size_t>(kRows) * kCorners;
-  for (std::vector<double>* sums : {&upper_, &lower_, &value_}) sums->assign(kSums, 0.0);
-  weight_.resize(kBlock);
-  layer_weight_.resize(kBlock);
-  factor_.resize(kBlock);
-  for (int k = 0; k < 3; ++k) {
-    for (Table* table : {&near_[k], &far_[k], &at_[k]}) table->resize(kCorners * kBlock);
-  }
+  inside_above_ = std::numeric_limits<double>::infinity();
+  outside_below_ = -inside_above_;
+  cells_.fill(1);
+  if (!sum_up(atoms, decay, planes)) return;
+  take_logarithms(log_sums_.data(), log_sums_.size());
 
-  // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums below and in
-  // the tables.
-  double largest_sq = 0.0;
+  // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums above and in
+  // the tables; and those of planes, which are not quite evenly spaced.
+  double largest_sq = 0.0, largest_coordinate = 0.0, loss[3], rise = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double reach = std::max(std::abs(planes[k].back() - atoms.lo[k]), std::abs(atoms.hi[k] - planes[k].front()));
-    largest_sq += reach * reach;
+    largest_sq += atoms.size() > 0 ? reach * reach : 0.0;
+    largest_coordinate = std::max({largest_coordinate, std::abs(planes[k].front()), std::abs(planes[k].back())});
+    const double edge = planes[k][1] - planes[k][0];
+    loss[k] = 0.75 * decay * edge * edge;
+    rise += loss[k] / 3.0;
   }
-  const double slack = atoms.size() > 0 ? 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 : 0.0;
+  const double error = 2.0 * kSumError + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 +
+                       1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
+  inside_above_ = error;
+  if (atoms.tail < 1.0) outside_below_ = std::log1p(-atoms.tail) - error;
+
+  const double cell_outside_below = outside_below_ - rise * (1.0 + 1e-9);
+  const double cell_inside_above = 4.0 * error + 1e-9 * (loss[0] + loss[1] + loss[2]);
+  for (int k = 0; k < kBrickCells; ++k) {
+    for (int j = 0; j < kBrickCells; ++j) {
+      double largest[kBrickCells], least[kBrickCells];
+      bound_row(log_sums_.data() + 1 + kPlanes * ((j + 1) + kPlanes * (k + 1)), loss, largest, least);
+      for (int i = 0; i < kBrickCells; ++i) {
+        cells_[i + kBrickCells * (j + kBrickCells * k)] =
+            !(largest[i] < cell_outside_below) && !(least[i] > cell_inside_above);
+      }
+    }
+  }
+}
+
+/// S / c at all crossings of planes. False where products would overflow: nothing is known of the cells then.
+bool BrickTables::sum_up(const NearAtoms& atoms, double decay, const Planes& planes) {
+  log_sums_.fill(0.0);
+  for (std::vector<double>* buffer : {&weight_, &layer_weight_, &factor_}) buffer->resize(kBlock);
+  for (Table& table : at_) table.resize(kPlanes * kBlock);
   for (std::size_t first = 0; first < atoms.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, atoms.padded() - first);
     for (std::size_t i = 0; i < count; ++i) {
@@ -106,60 +156,31 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
         const double g = gap(p[k], planes[k].front(), planes[k].back());
         exponent -= decay * g * g;
       }
-      if (exponent > kLargestExponent) return;  // products would overflow: nothing is known of the cells
+      if (exponent > kLargestExponent) return false;
       weight_[i] = exponent;
     }
     for (std::size_t i = 0; i < count; ++i) weight_[i] = vector_exp(weight_[i]);
     add_block(atoms, decay, planes, first, count);
   }
-
-  const double raise = std::exp(slack) * (1.0 + kSumError), lower = std::exp(-slack) * (1.0 - kSumError);
-  for (int k = 0; k < kCorners; ++k) {
-    for (int j = 0; j < kCorners; ++j) {
-      const int row = j + kCorners * k;
-      for (int i = 0; i < kCorners; ++i) {
-        const double value = value_[row * kCorners + i];
-        Side& side = corners_[row * kCorners + i];
-        if (value * lower - kUnderflow > 1.0) side = Side::kInside;
-        if (value * raise + kUnderflow + atoms.tail < 1.0) side = Side::kOutside;
-      }
-      if (j == kBrickCells || k == kBrickCells) continue;
-      unsigned bits = 0;
-      for (int i = 0; i < kBrickCells; ++i) {
-        const bool outside = upper_[row * kCorners + i] * raise + kUnderflow + atoms.tail < 1.0;
-        const bool inside = lower_[row * kCorners + i] * lower - kUnderflow > 1.0;
-        bits |= unsigned{!outside && !inside} << i;
-      }
-      cells_[j + kBrickCells * k] = static_cast<std::uint8_t>(bits);
-    }
-  }
+  return true;
 }
 
 void BrickTables::add_block(const NearAtoms& atoms, double decay, const Planes& planes, std::size_t first,
                             std::size_t count) {
   const double* centres[3] = {atoms.x.data() + first, atoms.y.data() + first, atoms.z.data() + first};
   for (int k = 0; k < 3; ++k) {
-    for (int j = 0; j < kCorners; ++j) {
+    for (int j = 0; j < kPlanes; ++j) {
       fill_plane(centres[k], count, decay, planes[k].front(), planes[k].back(), planes[k][j],
                  at_[k].data() + j * kBlock);
     }
-    for (int j = 0; j < kBrickCells; ++j) {
-      fill_layer(centres[k], count, planes[k][j], planes[k][j + 1], at_[k].data() + j * kBlock,
-                 at_[k].data() + (j + 1) * kBlock, near_[k].data() + j * kBlock, far_[k].data() + j * kBlock);
+  }
+  for (int k = 0; k < kPlanes; ++k) {
+    multiply(weight_.data(), at_[2].data() + k * kBlock, count, layer_weight_.data());
+    for (int j = 0; j < kPlanes; ++j) {
+      multiply(layer_weight_.data(), at_[1].data() + j * kBlock, count, factor_.data());
+      add_products(factor_.data(), at_[0].data(), count, log_sums_.data() + (j + kPlanes * k) * kPlanes);
     }
   }
-  const auto sum_up = [&](const Table* tables, int rows, std::vector<double>& sums) {
-    for (int k = 0; k < rows; ++k) {
-      multiply(weight_.data(), tables[2].data() + k * kBlock, count, layer_weight_.data());
-      for (int j = 0; j < rows; ++j) {
-        multiply(layer_weight_.data(), tables[1].data() + j * kBlock, count, factor_.data());
-        add_products(factor_.data(), tables[0].data(), count, sums.data() + (j + kCorners * k) * kCorners);
-      }
-    }
-  };
-  sum_up(near_, kBrickCells, upper_);  // the row behind the last layer is never filled nor looked at
-  sum_up(far_, kBrickCells, lower_);
-  sum_up(at_, kCorners, value_);
 }
 
 }  // namespace gaussmesh

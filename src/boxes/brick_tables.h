@@ -11,38 +11,50 @@
 namespace gaussmesh {
 
 /// A Gaussian is a product of three, one for each axis: exp(w - d |x - x_i|^2) = e^w ex ey ez. On the planes of a brick
-/// three short tables of exponentials for each atom give phi at every corner by multiplications alone. Tables of the
-/// nearest and the farthest distance of the atom from each layer of cells give, as sums of products of nonnegative
-/// bounds, an upper and a lower bound of phi for each cell. Keeps buffers: one for each thread.
+/// three short tables of exponentials for each atom give S, the sum over the atoms listed, at all corners by
+/// multiplications alone. What S is between corners follows from them: log S(x) + d |x|^2 = log sum exp(linear in x) is
+/// convex. With psi = log(S / c) and cells of edges a,
+///
+///     psi(x) <= max of psi over the corners of the cell + d (3/4) a^2,
+///
+/// since a convex function is at most its multilinear interpolation; and in the eighth of the cell next to a corner p,
+/// with p_k the corner behind p, which a step along axis k from p into the cell leads away from,
+///
+///     psi(x) >= psi(p) + sum_k min(0, (psi(p) - psi(p_k)) / 2 - d (3/4) a^2),
+///
+/// since along a line it rises at least as fast as it did before. Keeps buffers: one for each thread.
 class BrickTables {
  public:
-  /// Coordinates of the planes of a brick, by axis (A).
-  using Planes = std::array<std::array<double, kBrickCells + 1>, 3>;
+  /// Planes through the corners of a brick's cells, and one more on both sides of it.
+  static constexpr int kPlanes = kBrickCells + 3;
+  /// Coordinates of the planes, by axis (A): evenly spaced; the brick goes from the second to the last but one.
+  using Planes = std::array<std::array<double, kPlanes>, 3>;
 
-  /// `atoms` were collected for the whole brick. Cost: some 27 exponentials and 2500 multiplications per atom.
+  /// `atoms` were collected for the whole brick. Cost: 33 exponentials and 1500 multiplications per atom.
   void build(const NearAtoms& atoms, double decay, const Planes& planes);
 
   /// Whether bounds leave it open that the surface passes through the closed cell i, j, k.
-  bool may_cross(int i, int j, int k) const { return cells_[j + kBrickCells * k] >> i & 1; }
+  bool may_cross(int i, int j, int k) const { return cells_[i + kBrickCells * (j + kBrickCells * k)] != 0; }
 
   /// On which side the corner i, j, k is, each from 0 to kBrickCells.
   Side corner(int i, int j, int k) const {
-    return corners_[i + kCorners * (j + kCorners * k)];
+    const double psi = log_sums_[(i + 1) + kPlanes * ((j + 1) + kPlanes * (k + 1))];
+    return psi > inside_above_ ? Side::kInside : psi < outside_below_ ? Side::kOutside : Side::kUnknown;
   }
 
  private:
-  static constexpr int kCorners = kBrickCells + 1;
-  static constexpr int kRows = kCorners * kCorners;
-  /// The exponentials of one axis for a block of atoms: [plane or layer][atom].
+  static constexpr int kRows = kPlanes * kPlanes;
+  /// The exponentials of one axis for a block of atoms: [plane][atom].
   using Table = std::vector<double>;
 
+  bool sum_up(const NearAtoms& atoms, double decay, const Planes& planes);
   void add_block(const NearAtoms& atoms, double decay, const Planes& planes, std::size_t first, std::size_t count);
 
-  std::array<std::uint8_t, kBrickCells * kBrickCells> cells_{};   ///< a bit for each cell of a row along x
-  std::array<Side, kRows * kCorners> corners_{};
-  std::vector<double> upper_, lower_, value_;                     ///< sums, by row along x
+  std::array<std::uint8_t, kBrickCells * kBrickCells * kBrickCells> cells_{};
+  std::array<double, kRows * kPlanes> log_sums_{};  ///< S / c, then psi, at all crossings of planes
+  double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner: errors and atoms left out are in it
   std::vector<double> weight_, layer_weight_, factor_;
-  Table near_[3], far_[3], at_[3];
+  Table at_[3];
 };
 
 }  // namespace gaussmesh

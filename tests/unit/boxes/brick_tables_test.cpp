@@ -11,13 +11,17 @@ namespace {
 BrickTables::Planes planes_of(const Vec3& lo, double cell) {
   BrickTables::Planes planes;
   for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i <= kBrickCells; ++i) planes[k][i] = lo[k] + i * cell;
+    for (int i = 0; i < BrickTables::kPlanes; ++i) planes[k][i] = lo[k] + (i - 1) * cell;
   }
   return planes;
 }
 
-Box cell_of(const BrickTables::Planes& planes, int i, int j, int k) {
-  return {{planes[0][i], planes[1][j], planes[2][k]}, {planes[0][i + 1], planes[1][j + 1], planes[2][k + 1]}};
+Vec3 corner_of(const BrickTables::Planes& planes, int i, int j, int k) {
+  return {planes[0][i + 1], planes[1][j + 1], planes[2][k + 1]};
+}
+
+Box box_of(const BrickTables::Planes& planes) {
+  return {corner_of(planes, 0, 0, 0), corner_of(planes, kBrickCells, kBrickCells, kBrickCells)};
 }
 
 }  // namespace
@@ -38,18 +42,18 @@ TEST_CASE("no cell that the surface passes through is dropped, and corners are o
       const double cell = random.logarithmic(0.1, 1.5);
       const auto planes = planes_of(random_point(random, sample.room), cell);
       NearAtoms near;
-      field.collect_near({{planes[0][0], planes[1][0], planes[2][0]}, {planes[0][8], planes[1][8], planes[2][8]}}, near);
+      field.collect_near(box_of(planes), near);
       tables.build(near, decay, planes);
       for (int i = 0; i < kBrickCells; ++i) {
         for (int j = 0; j < kBrickCells; ++j) {
           for (int k = 0; k < kBrickCells; ++k) {
-            const bool inside = exact.psi({planes[0][i], planes[1][j], planes[2][k]}) >= 0.0L;
+            const bool inside = exact.psi(corner_of(planes, i, j, k)) >= 0.0L;
             const Side side = tables.corner(i, j, k);
             ++corners;
             known += side != Side::kUnknown;
             if (side != Side::kUnknown) REQUIRE((side == Side::kInside) == inside);
             bool is_crossed = false;
-            for (const Vec3& p : grid_points(cell_of(planes, i, j, k), 3)) {
+            for (const Vec3& p : grid_points({corner_of(planes, i, j, k), corner_of(planes, i + 1, j + 1, k + 1)}, 3)) {
               is_crossed = is_crossed || (exact.psi(p) >= 0.0L) != inside;
             }
             if (is_crossed) REQUIRE(tables.may_cross(i, j, k));
@@ -72,12 +76,12 @@ TEST_CASE("a brick near atoms of any number: blocks of atoms add up") {
   const ExactField exact(atoms, 0.6, 20.0);
   const auto planes = planes_of({-4.1, -3.9, -4.0}, 1.0);
   NearAtoms near;
-  field.collect_near({{planes[0][0], planes[1][0], planes[2][0]}, {planes[0][8], planes[1][8], planes[2][8]}}, near);
+  field.collect_near(box_of(planes), near);
   REQUIRE(near.size() > 1000);
   BrickTables tables;
   tables.build(near, 0.6, planes);
   for (int i = 0; i <= kBrickCells; ++i) {
-    const bool inside = exact.psi({planes[0][i], planes[1][i], planes[2][8 - i]}) >= 0.0L;
+    const bool inside = exact.psi(corner_of(planes, i, i, 8 - i)) >= 0.0L;
     CHECK(tables.corner(i, i, 8 - i) == (inside ? Side::kInside : Side::kOutside));
   }
 }

@@ -55,6 +55,30 @@ TEST_CASE("vector_exp is clamped, and so is always a positive finite number") {
   }
 }
 
+TEST_CASE("vector_log keeps its error over all normal numbers, and where the exponent changes over") {
+  const std::uint64_t seed = 4;
+  CAPTURE(seed);
+  Random random(seed);
+  double largest = 0.0;
+  const auto look_at = [&](double x) {
+    const long double exact = std::log(static_cast<long double>(x));
+    largest = std::max(largest, static_cast<double>(std::abs(static_cast<long double>(vector_log(x)) - exact)));
+  };
+  for (int i = 0; i < 1000000; ++i) look_at(std::exp(random.uniform(-708.0, 709.0)));
+  for (int i = 0; i < 100000; ++i) look_at(random.uniform(0.5, 2.0));
+  for (int n = -1021; n <= 1023; ++n) {
+    for (const double mantissa : {1.0, std::sqrt(0.5), std::sqrt(2.0)}) {
+      const double at = std::ldexp(mantissa, n);
+      for (const double x : {std::nextafter(at, 0.0), at, std::nextafter(at, 1e308)}) {
+        if (std::isnormal(x)) look_at(x);
+      }
+    }
+  }
+  CHECK(largest <= kVectorLogError);
+  CHECK(largest > 0.0);
+  CHECK(vector_log(1.0) == 0.0);
+}
+
 TEST_CASE("in single precision it is good to 3e-7, and clamped") {
   const std::uint64_t seed = 3;
   CAPTURE(seed);
