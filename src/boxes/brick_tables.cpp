@@ -108,13 +108,14 @@ double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - 
 void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& planes) {
   inside_above_ = std::numeric_limits<double>::infinity();
   outside_below_ = -inside_above_;
+  grows_below_ = {outside_below_, outside_below_};
   cells_.fill(1);
   if (!sum_up(atoms, decay, planes)) return;
   take_logarithms(log_sums_.data(), log_sums_.size());
 
   // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums above and in
   // the tables; and those of planes, which are not quite evenly spaced.
-  double largest_sq = 0.0, largest_coordinate = 0.0, loss[3], rise = 0.0;
+  double largest_sq = 0.0, largest_coordinate = 0.0, loss[3], rise = 0.0, longest = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double reach = std::max(std::abs(planes[k].back() - atoms.lo[k]), std::abs(atoms.hi[k] - planes[k].front()));
     largest_sq += atoms.size() > 0 ? reach * reach : 0.0;
@@ -122,11 +123,20 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
     const double edge = planes[k][1] - planes[k][0];
     loss[k] = 0.75 * decay * edge * edge;
     rise += loss[k] / 3.0;
+    longest = std::max(longest, edge);
   }
   const double error = 2.0 * kSumError + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 +
                        1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
   inside_above_ = error;
   if (atoms.tail < 1.0) outside_below_ = std::log1p(-atoms.tail) - error;
+
+  // With psi <= m on the corners of a square, psi <= m + d a^2 / 2 on it. At a point p with phi = c the atoms listed have
+  // psi >= log(1 - tail), and grow by (psi(p) - psi - d L^2) / L at least; those left out take away their slope from it.
+  for (int back = 0; back < 2 && atoms.tail < 0.05; ++back) {
+    const double reach = (back + 1) * longest;
+    grows_below_[back] = outside_below_ - error - decay * (0.5 * longest * longest + reach * reach) * (1.0 + 1e-9) -
+                         1.1 * reach * atoms.tail_slope;
+  }
 
   const double cell_outside_below = outside_below_ - rise * (1.0 + 1e-9);
   const double cell_inside_above = 4.0 * error + 1e-9 * (loss[0] + loss[1] + loss[2]);
@@ -140,6 +150,32 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
       }
     }
   }
+}
+
+bool BrickTables::is_crossed(int i, int j, int k) const {
+  bool any_inside = false, any_outside = false;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double psi = *at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+    any_inside = any_inside || psi > inside_above_;
+    any_outside = any_outside || psi < outside_below_;
+  }
+  return any_inside && any_outside;
+}
+
+unsigned BrickTables::directions(int i, int j, int k) const {
+  const double* lowest = at(i, j, k);
+  unsigned result = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int along = kStride[axis], u = kStride[(axis + 1) % 3], v = kStride[(axis + 2) % 3];
+    const auto is_below = [&](int plane, double limit) {
+      const double* p = lowest + plane * along;
+      return p[0] < limit && p[u] < limit && p[v] < limit && p[u + v] < limit;
+    };
+    const bool grows = is_below(0, grows_below_[0]) || is_below(-1, grows_below_[1]);
+    const bool falls = is_below(1, grows_below_[0]) || is_below(2, grows_below_[1]);
+    result |= unsigned{falls} << (2 * axis) | unsigned{grows} << (2 * axis + 1);
+  }
+  return result;
 }
 
 /// S / c at all crossings of planes. False where products would overflow: nothing is known of the cells then.

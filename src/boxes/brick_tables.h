@@ -22,7 +22,9 @@ namespace gaussmesh {
 ///
 ///     psi(x) >= psi(p) + sum_k min(0, (psi(p) - psi(p_k)) / 2 - d (3/4) a^2),
 ///
-/// since along a line it rises at least as fast as it did before. Keeps buffers: one for each thread.
+/// since along a line it rises at least as fast as it did before. For that reason too phi grows along an axis wherever
+/// phi = c in a cell, if on a plane across the axis before it, no farther than L from any point of the cell,
+/// psi < -d L^2. Keeps buffers: one for each thread.
 class BrickTables {
  public:
   /// Planes through the corners of a brick's cells, and one more on both sides of it.
@@ -36,23 +38,34 @@ class BrickTables {
   /// Whether bounds leave it open that the surface passes through the closed cell i, j, k.
   bool may_cross(int i, int j, int k) const { return cells_[i + kBrickCells * (j + kBrickCells * k)] != 0; }
 
+  /// Whether corners of the cell are proven to be on both sides.
+  bool is_crossed(int i, int j, int k) const;
+
+  /// Along which axes phi passes c in one sense only wherever it does in the closed cell, as far as corners tell: bit
+  /// 2 n + 1 is growth along axis n, bit 2 n is fall.
+  unsigned directions(int i, int j, int k) const;
+
   /// On which side the corner i, j, k is, each from 0 to kBrickCells.
   Side corner(int i, int j, int k) const {
-    const double psi = log_sums_[(i + 1) + kPlanes * ((j + 1) + kPlanes * (k + 1))];
+    const double psi = *at(i, j, k);
     return psi > inside_above_ ? Side::kInside : psi < outside_below_ ? Side::kOutside : Side::kUnknown;
   }
 
  private:
   static constexpr int kRows = kPlanes * kPlanes;
+  static constexpr int kStride[3] = {1, kPlanes, kRows};
   /// The exponentials of one axis for a block of atoms: [plane][atom].
   using Table = std::vector<double>;
 
+  const double* at(int i, int j, int k) const { return &log_sums_[(i + 1) + kPlanes * (j + 1) + kRows * (k + 1)]; }
   bool sum_up(const NearAtoms& atoms, double decay, const Planes& planes);
   void add_block(const NearAtoms& atoms, double decay, const Planes& planes, std::size_t first, std::size_t count);
 
   std::array<std::uint8_t, kBrickCells * kBrickCells * kBrickCells> cells_{};
   std::array<double, kRows * kPlanes> log_sums_{};  ///< S / c, then psi, at all crossings of planes
   double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner: errors and atoms left out are in it
+  /// What psi on a plane must be below for directions: on the nearest face of a cell, and on the plane behind it.
+  std::array<double, 2> grows_below_{};
   std::vector<double> weight_, layer_weight_, factor_;
   Table at_[3];
 };

@@ -46,19 +46,21 @@ Box child_box(const Box& box, int child) {
   return result;
 }
 
-CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& model, int depth) {
+CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& model, int depth,
+                                    const KnownOfCell& known) {
   using Kind = CellCertificate::Kind;
   depth_ = depth;
   ++boxes_by_depth_[0];
   const LocalModel::View view = model.over_all();
-  if (is_excluded(view.value())) return {Kind::kExcluded, {}, 0};
+  if (!known.is_crossed && is_excluded(view.value())) return {Kind::kExcluded, {}, 0};
 
   const Vec3 gradient = view.middle_gradient();
   std::array<int, 3> axes = {0, 1, 2};
   std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(gradient[a]) > std::abs(gradient[b]); });
   CellCertificate whole;
   for (int axis : axes) {
-    const int sign = proven_sign(view.slope(axis));
+    const unsigned both = known.directions >> (2 * axis) & 3u;
+    const int sign = both != 0 ? (both == 1 ? -1 : 1) : proven_sign(view.slope(axis));
     if (sign == 0) continue;
     if (whole.kind != Kind::kMonotone) whole = {Kind::kMonotone, along_axis(axis, sign), 0};
     whole.single_axes |= 1u << axis;

@@ -22,6 +22,12 @@ struct CellCertificate {
   unsigned single_axes = 0;  ///< bit k: the same is proven of axis k; others have not all been looked at
 };
 
+/// What is known of a cell before one looks at it.
+struct KnownOfCell {
+  bool is_crossed = false;  ///< the surface passes through it
+  unsigned directions = 0;  ///< proven: bit 2 k + 1 is growth along axis k, bit 2 k fall
+};
+
 /// Proves directions of cells, looking closer through sub-boxes where the cell as a whole does not show one.
 class CellProver {
  public:
@@ -29,13 +35,13 @@ class CellProver {
 
   /// `model` is over the whole cell; `atoms` were collected for a box around it.
   /// @param depth  how often the cell is halved before it counts as unproven
-  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model, int depth);
+  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model, int depth, const KnownOfCell& known = {});
 
   /// Sub-boxes that have had models of their own so far, by how often the cell was halved for them.
   const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }
 
  private:
-  /// What a model shows of a box; bit 2 k + 1 is the direction of growth along axis k, bit 2 k that of fall.
+  /// What a model shows of a box; bits as in KnownOfCell.
   struct Part {
     unsigned proven = 0;   ///< all bits where there is no surface
     unsigned refuted = 0;  ///< the surface is surely here, and phi passes c the other way

@@ -259,6 +259,11 @@ double LocalModel::View::middle_curvature(int axis) const {
   return g2_[axis] / g_ - slope * slope - 2.0 * model_.decay_;
 }
 
+double LocalModel::View::middle_third(int axis) const {
+  const double slope = g1_[axis] / g_;
+  return model_.third_[axis] / g_ - slope * (3.0 * g2_[axis] / g_ - 2.0 * slope * slope);
+}
+
 Range LocalModel::View::value() const {
   const double d = model_.decay_;
   if (model_.empty_) return {-kInfinity, std::log(model_.tail_) + 1e-15};

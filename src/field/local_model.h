@@ -79,6 +79,7 @@ class LocalModel::View {
   double middle_value() const;
   Vec3 middle_gradient() const;
   double middle_curvature(int axis) const;  ///< second derivative along an axis
+  double middle_third(int axis) const;      ///< third derivative along it
 
  private:
   template <typename Along>

@@ -73,10 +73,7 @@ bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalMo
 
 LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess) {
-  // The fourth derivative of log phi is that cumulant of y = 2 d times the atoms' positions: at most 3/16 of the
-  // fourth power of their range.
   const double range = atoms.size() > 0 ? 2.0 * decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
-  const double fourth = 3.0 / 16.0 * range * range * range * range;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
   double width = b - a;
   Vec3 point = start;
@@ -85,6 +82,9 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     point[axis] = x;
     const auto [value, gradient_slope, gradient_curvature] = evaluate_along(atoms, decay, point, axis);
     const double slope = value.gradient[axis], curvature = gradient_slope[axis], third = gradient_curvature[axis];
+    // The derivatives of log phi are cumulants of y = 2 d times the atoms' positions, less 2 d in the second: the
+    // fourth one is at most the range of y squared times its variance.
+    const double fourth = range * range * (curvature + 2.0 * decay);
     root = {x, value.gradient};
     ((value.value > 0.0) == inside_a ? a : b) = x;
     double next = cubic_zero(x, value.value, slope, curvature, third);
@@ -194,8 +194,8 @@ void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
   // The model's own root is a guess that mostly needs one sum over the atoms.
   const double middle = 0.5 * (s.a + s.b);
   const LocalModel::View view = model.over({at(middle), at(middle)});
-  const double guess =
-      parabola_zero(middle, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_));
+  const double guess = cubic_zero(middle, view.middle_value(), view.middle_gradient()[axis_],
+                                  view.middle_curvature(axis_), view.middle_third(axis_));
   const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;

@@ -20,18 +20,41 @@ Vec3 corner_of(const BrickTables::Planes& planes, int i, int j, int k) {
   return {planes[0][i + 1], planes[1][j + 1], planes[2][k + 1]};
 }
 
+Box cell_of(const BrickTables::Planes& planes, int i, int j, int k) {
+  return {corner_of(planes, i, j, k), corner_of(planes, i + 1, j + 1, k + 1)};
+}
+
 Box box_of(const BrickTables::Planes& planes) {
   return {corner_of(planes, 0, 0, 0), corner_of(planes, kBrickCells, kBrickCells, kBrickCells)};
 }
 
+/// Whether some line through the box along the axis leaves {phi > c} (sign 1) or enters it (sign -1) on the way up.
+bool passes_against(const ExactField& exact, const Box& box, int axis, int sign) {
+  constexpr int kLines = 3, kSteps = 6;
+  const auto place = [&](int k, double part) { return box.lo[k] + part * (box.hi[k] - box.lo[k]); };
+  for (int line = 0; line < kLines * kLines; ++line) {
+    Vec3 p;
+    p[(axis + 1) % 3] = place((axis + 1) % 3, (line % kLines) / (kLines - 1.0));
+    p[(axis + 2) % 3] = place((axis + 2) % 3, (line / kLines) / (kLines - 1.0));
+    bool was_inside = false;
+    for (int step = 0; step <= kSteps; ++step) {
+      p[axis] = place(axis, step / double(kSteps));
+      const bool inside = exact.psi(p) >= 0.0L;
+      if (step > 0 && (sign > 0 ? was_inside && !inside : !was_inside && inside)) return true;
+      was_inside = inside;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-TEST_CASE("no cell that the surface passes through is dropped, and corners are on the side where they are") {
+TEST_CASE("no cell that the surface passes through is dropped, and corners are on the side where they are; directions hold") {
   const std::uint64_t seed = 46;
   CAPTURE(seed);
   Random random(seed);
   BrickTables tables;
-  std::size_t crossed = 0, dropped = 0, known = 0, corners = 0;
+  std::size_t crossed = 0, dropped = 0, known = 0, corners = 0, directions = 0;
   for (const FieldSample& sample : field_samples(seed)) {
     CAPTURE(sample.what);
     for (int n = 0; n < 8; ++n) {
@@ -53,10 +76,19 @@ TEST_CASE("no cell that the surface passes through is dropped, and corners are o
             known += side != Side::kUnknown;
             if (side != Side::kUnknown) REQUIRE((side == Side::kInside) == inside);
             bool is_crossed = false;
-            for (const Vec3& p : grid_points({corner_of(planes, i, j, k), corner_of(planes, i + 1, j + 1, k + 1)}, 3)) {
+            for (const Vec3& p : grid_points(cell_of(planes, i, j, k), 3)) {
               is_crossed = is_crossed || (exact.psi(p) >= 0.0L) != inside;
             }
             if (is_crossed) REQUIRE(tables.may_cross(i, j, k));
+            if (tables.is_crossed(i, j, k)) REQUIRE(is_crossed);
+            if (is_crossed) {
+              const unsigned proven = tables.directions(i, j, k);
+              for (int direction = 0; direction < 6; ++direction) {
+                if (!(proven >> direction & 1)) continue;
+                ++directions;
+                REQUIRE_FALSE(passes_against(exact, cell_of(planes, i, j, k), direction / 2, direction % 2 ? 1 : -1));
+              }
+            }
             crossed += is_crossed;
             dropped += !tables.may_cross(i, j, k);
           }
@@ -67,6 +99,7 @@ TEST_CASE("no cell that the surface passes through is dropped, and corners are o
   CHECK(crossed > 500);
   CHECK(dropped > 3 * crossed);
   CHECK(known > corners * 3 / 4);
+  CHECK(directions > crossed / 2);
 }
 
 TEST_CASE("a brick near atoms of any number: blocks of atoms add up") {
