@@ -60,15 +60,15 @@ void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& 
     octant_loaded_ = block_loaded = true;
     const LocalModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
     const CellCertificate certificate =
-        prover_.certify(proof_atoms_, model, kProofDepth, {tables_.is_crossed(i, j, k), tables_.directions(i, j, k)});
+        prover_.certify(proof_atoms_, model, kProofDepth, {tables_.is_crossed(i, j, k), tables_.directions(i, j, k, 7)});
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
            i + kBrickCells * (j + kBrickCells * k),
            octant_atoms_,
            model,
            certificate,
-           tables_.corner(i, j, k),
-           {tables_.corner(i + 1, j, k), tables_.corner(i, j + 1, k), tables_.corner(i, j, k + 1)}});
+           tables_,
+           {i, j, k}});
   }
 }
 

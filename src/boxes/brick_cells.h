@@ -19,8 +19,8 @@ class BrickWalker {
     const NearAtoms& atoms;        ///< collected for a box around the cell, with kTruncation
     const LocalModel& model;       ///< of the cell, with kProofTruncation
     CellCertificate certificate;
-    Side lowest;                   ///< side of the lowest corner ...
-    std::array<Side, 3> next;      ///< ... and of the next one along each axis
+    const BrickTables& tables;     ///< of the brick
+    std::array<int, 3> in_brick;   ///< i, j, k
   };
   using Visitor = std::function<void(const Cell&)>;
 

@@ -77,9 +77,9 @@ void take_logarithms(double* values, std::size_t n) {
 
 /// For a row of cells along x, the largest psi at their corners, and a bound that psi is not below in the cells.
 /// @param psi   at the lowest corner of the first cell; neighbours are 1, kPlanes and kPlanes^2 further
-/// @param loss  d (3/4) a^2, for each axis
+/// @param loss  d (3/4) a^2
 GAUSSMESH_SIMD_CLONES
-void bound_row(const double* psi, const double* loss, double* largest, double* least) {
+void bound_row(const double* psi, double loss, double* largest, double* least) {
   for (int i = 0; i < kBrickCells; ++i) {
     largest[i] = -std::numeric_limits<double>::infinity();
     least[i] = std::numeric_limits<double>::infinity();
@@ -91,9 +91,9 @@ void bound_row(const double* psi, const double* loss, double* largest, double* l
                                at + (is_top ? kPlanes * kPlanes : -kPlanes * kPlanes)};
 #pragma omp simd
     for (int i = 0; i < kBrickCells; ++i) {
-      const double x = 0.5 * (at[i] - behind[0][i]) - loss[0];
-      const double y = 0.5 * (at[i] - behind[1][i]) - loss[1];
-      const double z = 0.5 * (at[i] - behind[2][i]) - loss[2];
+      const double x = 0.5 * (at[i] - behind[0][i]) - loss;
+      const double y = 0.5 * (at[i] - behind[1][i]) - loss;
+      const double z = 0.5 * (at[i] - behind[2][i]) - loss;
       const double bound = at[i] + ((x < 0.0 ? x : 0.0) + (y < 0.0 ? y : 0.0) + (z < 0.0 ? z : 0.0));
       largest[i] = at[i] > largest[i] ? at[i] : largest[i];
       least[i] = bound < least[i] ? bound : least[i];
@@ -108,45 +108,40 @@ double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - 
 void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& planes) {
   inside_above_ = std::numeric_limits<double>::infinity();
   outside_below_ = -inside_above_;
-  grows_below_ = {outside_below_, outside_below_};
+  free_above_ = inside_above_;
+  grows_below_ = outside_below_;
   cells_.fill(1);
   if (!sum_up(atoms, decay, planes)) return;
   take_logarithms(log_sums_.data(), log_sums_.size());
 
   // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums above and in
   // the tables; and those of planes, which are not quite evenly spaced.
-  double largest_sq = 0.0, largest_coordinate = 0.0, loss[3], rise = 0.0, longest = 0.0;
+  double largest_sq = 0.0, largest_coordinate = 0.0, edge = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double reach = std::max(std::abs(planes[k].back() - atoms.lo[k]), std::abs(atoms.hi[k] - planes[k].front()));
     largest_sq += atoms.size() > 0 ? reach * reach : 0.0;
     largest_coordinate = std::max({largest_coordinate, std::abs(planes[k].front()), std::abs(planes[k].back())});
-    const double edge = planes[k][1] - planes[k][0];
-    loss[k] = 0.75 * decay * edge * edge;
-    rise += loss[k] / 3.0;
-    longest = std::max(longest, edge);
+    edge = std::max(edge, planes[k][1] - planes[k][0]);
   }
   const double error = 2.0 * kSumError + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 +
                        1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
+  square_ = decay * edge * edge * (1.0 + 1e-9);
   inside_above_ = error;
+  free_above_ = 4.0 * error;
   if (atoms.tail < 1.0) outside_below_ = std::log1p(-atoms.tail) - error;
+  // At a point p with phi = c the atoms listed have psi >= log(1 - tail), and grow by (psi(p) - psi - d L^2) / L at least;
+  // those left out take away their slope from it.
+  if (atoms.tail < 0.05) grows_below_ = outside_below_ - error;
+  edge_slope_ = 1.1 * edge * atoms.tail_slope;
 
-  // With psi <= m on the corners of a square, psi <= m + d a^2 / 2 on it. At a point p with phi = c the atoms listed have
-  // psi >= log(1 - tail), and grow by (psi(p) - psi - d L^2) / L at least; those left out take away their slope from it.
-  for (int back = 0; back < 2 && atoms.tail < 0.05; ++back) {
-    const double reach = (back + 1) * longest;
-    grows_below_[back] = outside_below_ - error - decay * (0.5 * longest * longest + reach * reach) * (1.0 + 1e-9) -
-                         1.1 * reach * atoms.tail_slope;
-  }
-
-  const double cell_outside_below = outside_below_ - rise * (1.0 + 1e-9);
-  const double cell_inside_above = 4.0 * error + 1e-9 * (loss[0] + loss[1] + loss[2]);
+  const double cell_outside_below = outside_below_ - 0.75 * square_;
   for (int k = 0; k < kBrickCells; ++k) {
     for (int j = 0; j < kBrickCells; ++j) {
       double largest[kBrickCells], least[kBrickCells];
-      bound_row(log_sums_.data() + 1 + kPlanes * ((j + 1) + kPlanes * (k + 1)), loss, largest, least);
+      bound_row(log_sums_.data() + 1 + kPlanes * ((j + 1) + kPlanes * (k + 1)), 0.75 * square_, largest, least);
       for (int i = 0; i < kBrickCells; ++i) {
         cells_[i + kBrickCells * (j + kBrickCells * k)] =
-            !(largest[i] < cell_outside_below) && !(least[i] > cell_inside_above);
+            !(largest[i] < cell_outside_below) && !(least[i] > free_above_);
       }
     }
   }
@@ -162,17 +157,50 @@ bool BrickTables::is_crossed(int i, int j, int k) const {
   return any_inside && any_outside;
 }
 
-unsigned BrickTables::directions(int i, int j, int k) const {
+bool BrickTables::is_free(int i, int j, int k, unsigned extent) const {
+  const double* lowest = at(i, j, k);
+  int strides[3], dimensions = 0;
+  for (int n = 0; n < 3; ++n) {
+    if (extent >> n & 1) strides[dimensions++] = kStride[n];
+  }
+  const auto all_corners = [&](const auto& is_so) {
+    for (int corner = 0; corner < 1 << dimensions; ++corner) {
+      const double* p = lowest;
+      for (int n = 0; n < dimensions; ++n) p += corner >> n & 1 ? strides[n] : 0;
+      if (!is_so(corner, p)) return false;
+    }
+    return true;
+  };
+  const auto is_above = [&](int corner, const double* p) {
+    double bound = *p;
+    for (int n = 0; n < dimensions && bound > free_above_; ++n) {
+      const double behind = p[corner >> n & 1 ? strides[n] : -strides[n]];
+      bound += std::min(0.0, 0.5 * (*p - behind) - 0.75 * square_);
+    }
+    return bound > free_above_;
+  };
+  const double below = outside_below_ - 0.25 * square_ * dimensions;
+  if (*lowest > free_above_) return all_corners(is_above);
+  return all_corners([&](int, const double* p) { return *p < below; });
+}
+
+unsigned BrickTables::directions(int i, int j, int k, unsigned extent) const {
   const double* lowest = at(i, j, k);
   unsigned result = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const int along = kStride[axis], u = kStride[(axis + 1) % 3], v = kStride[(axis + 2) % 3];
-    const auto is_below = [&](int plane, double limit) {
-      const double* p = lowest + plane * along;
-      return p[0] < limit && p[u] < limit && p[v] < limit && p[u + v] < limit;
+    if (!(extent >> axis & 1)) continue;
+    // Corners of what is cut by a plane across the axis: between them psi is larger by d a^2 / 4 at most for each of the
+    // other axes.
+    const int other[2] = {(axis + 1) % 3, (axis + 2) % 3};
+    const int u = extent >> other[0] & 1 ? kStride[other[0]] : 0, v = extent >> other[1] & 1 ? kStride[other[1]] : 0;
+    const double base = grows_below_ - 0.25 * square_ * ((u != 0) + (v != 0));
+    const double limit[2] = {base - square_ - edge_slope_, base - 4.0 * square_ - 2.0 * edge_slope_};
+    const auto is_below = [&](int plane, double below) {
+      const double* p = lowest + plane * kStride[axis];
+      return p[0] < below && p[u] < below && p[v] < below && p[u + v] < below;
     };
-    const bool grows = is_below(0, grows_below_[0]) || is_below(-1, grows_below_[1]);
-    const bool falls = is_below(1, grows_below_[0]) || is_below(2, grows_below_[1]);
+    const bool grows = is_below(0, limit[0]) || is_below(-1, limit[1]);
+    const bool falls = is_below(1, limit[0]) || is_below(2, limit[1]);
     result |= unsigned{falls} << (2 * axis) | unsigned{grows} << (2 * axis + 1);
   }
   return result;

@@ -24,12 +24,6 @@ bool proves(const LocalModel::View& view, const Direction& direction) {
 /// Slanted directions that are tried for a cell.
 constexpr int kMostDirections = 8;
 
-/// Bit k for axis k, from the bits of directions along it.
-unsigned axes_of(unsigned directions) {
-  const unsigned either = directions | directions >> 1;
-  return (either & 1u) | (either >> 1 & 2u) | (either >> 2 & 4u);
-}
-
 /// Not a proof, only a reason to stop looking for one: by the model, the surface passes through the inner half.
 bool surface_is_surely_near(const LocalModel::View& view, const Box& box) {
   const Vec3 g = view.middle_gradient();

@@ -37,6 +37,12 @@ struct Direction {
   }
 };
 
+/// Bit k for axis k, from bits of directions along axes: 2 k + 1 is growth along axis k, 2 k is fall.
+inline unsigned axes_of(unsigned directions) {
+  const unsigned either = directions | directions >> 1;
+  return (either & 1u) | (either >> 1 & 2u) | (either >> 2 & 4u);
+}
+
 inline Direction along_axis(int axis, int sign = 1) {
   return {static_cast<std::int8_t>(axis), static_cast<std::int8_t>(sign), {}};
 }

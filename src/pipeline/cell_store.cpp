@@ -50,11 +50,15 @@ class BrickBuilder {
     cell.direction = found.certificate.direction;
     cell.first_root = static_cast<std::uint32_t>(roots_->size());
     const CoordPoint lo = lattice_.point(found.lo);
+    const auto [i, j, k] = found.in_brick;
     for (int axis = 0; axis < 3; ++axis) {
-      const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
-      const bool is_monotone = found.certificate.single_axes >> axis & 1;
-      const EdgeEnds ends{found.lowest, found.next[axis], is_monotone};
       cell.face[axis] = face_certificate(found, axis);
+      const unsigned edge = 1u << axis;
+      if (found.tables.is_free(i, j, k, edge)) continue;
+      const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
+      const bool is_monotone = (found.certificate.single_axes & edge) != 0 || found.tables.directions(i, j, k, edge) != 0;
+      const Side upper = found.tables.corner(i + (axis == 0), j + (axis == 1), k + (axis == 2));
+      const EdgeEnds ends{found.tables.corner(i, j, k), upper, is_monotone};
       if (finder_.is_free(found.model, axis, lo, hi, ends)) continue;
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
@@ -68,7 +72,12 @@ class BrickBuilder {
 
   /// The low face of a cell across `axis`: single-valued along axes of the cell that lie in it.
   FaceCertificate face_certificate(const BrickWalker::Cell& found, int axis) const {
+    const auto [i, j, k] = found.in_brick;
+    const unsigned extent = 7u & ~(1u << axis);
+    if (found.tables.is_free(i, j, k, extent)) return kFaceEmpty;
     if (const FaceCertificate known = certificate_in_face(found.certificate.single_axes, axis)) return known;
+    const unsigned single_axes = axes_of(found.tables.directions(i, j, k, extent));
+    if (const FaceCertificate by_corners = certificate_in_face(single_axes, axis)) return by_corners;
     Box face = found.model.box();
     face.hi[axis] = face.lo[axis];
     return certify_face(found.model, axis, face);

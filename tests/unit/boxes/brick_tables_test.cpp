@@ -24,6 +24,15 @@ Box cell_of(const BrickTables::Planes& planes, int i, int j, int k) {
   return {corner_of(planes, i, j, k), corner_of(planes, i + 1, j + 1, k + 1)};
 }
 
+/// What reaches from the lowest corner of a box along the axes in `extent`.
+Box part_of(const Box& box, unsigned extent) {
+  Box part = box;
+  for (int n = 0; n < 3; ++n) {
+    if (!(extent >> n & 1)) part.hi[n] = part.lo[n];
+  }
+  return part;
+}
+
 Box box_of(const BrickTables::Planes& planes) {
   return {corner_of(planes, 0, 0, 0), corner_of(planes, kBrickCells, kBrickCells, kBrickCells)};
 }
@@ -49,12 +58,12 @@ bool passes_against(const ExactField& exact, const Box& box, int axis, int sign)
 
 }  // namespace
 
-TEST_CASE("no cell that the surface passes through is dropped, and corners are on the side where they are; directions hold") {
+TEST_CASE("no cell that the surface passes through is dropped, and corners are on the side where they are; faces and edges too") {
   const std::uint64_t seed = 46;
   CAPTURE(seed);
   Random random(seed);
   BrickTables tables;
-  std::size_t crossed = 0, dropped = 0, known = 0, corners = 0, directions = 0;
+  std::size_t crossed = 0, dropped = 0, known = 0, corners = 0, directions = 0, free_parts = 0, uncrossed_parts = 0;
   for (const FieldSample& sample : field_samples(seed)) {
     CAPTURE(sample.what);
     for (int n = 0; n < 8; ++n) {
@@ -81,12 +90,24 @@ TEST_CASE("no cell that the surface passes through is dropped, and corners are o
             }
             if (is_crossed) REQUIRE(tables.may_cross(i, j, k));
             if (tables.is_crossed(i, j, k)) REQUIRE(is_crossed);
-            if (is_crossed) {
-              const unsigned proven = tables.directions(i, j, k);
+            for (unsigned extent = 1; extent < 8 && tables.may_cross(i, j, k); ++extent) {
+              CAPTURE(i, j, k, extent);
+              const Box part = part_of(cell_of(planes, i, j, k), extent);
+              bool part_is_crossed = false;
+              const bool part_is_inside = exact.psi(part.lo) >= 0.0L;
+              for (const Vec3& p : grid_points(part, 3)) {
+                part_is_crossed = part_is_crossed || (exact.psi(p) >= 0.0L) != part_is_inside;
+              }
+              const bool is_free = tables.is_free(i, j, k, extent);
+              if (is_free) REQUIRE_FALSE(part_is_crossed);
+              uncrossed_parts += extent < 7 && !part_is_crossed;
+              free_parts += extent < 7 && is_free;
+              if (!part_is_crossed) continue;
+              const unsigned proven = tables.directions(i, j, k, extent);
               for (int direction = 0; direction < 6; ++direction) {
                 if (!(proven >> direction & 1)) continue;
                 ++directions;
-                REQUIRE_FALSE(passes_against(exact, cell_of(planes, i, j, k), direction / 2, direction % 2 ? 1 : -1));
+                REQUIRE_FALSE(passes_against(exact, part, direction / 2, direction % 2 ? 1 : -1));
               }
             }
             crossed += is_crossed;
@@ -99,7 +120,8 @@ TEST_CASE("no cell that the surface passes through is dropped, and corners are o
   CHECK(crossed > 500);
   CHECK(dropped > 3 * crossed);
   CHECK(known > corners * 3 / 4);
-  CHECK(directions > crossed / 2);
+  CHECK(directions > 3 * crossed);
+  CHECK(free_parts > uncrossed_parts / 10);
 }
 
 TEST_CASE("a brick near atoms of any number: blocks of atoms add up") {
