@@ -59,8 +59,8 @@ void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& 
     }
     octant_loaded_ = block_loaded = true;
     const LocalModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
-    const CellCertificate certificate =
-        prover_.certify(proof_atoms_, model, kProofDepth, {tables_.is_crossed(i, j, k), tables_.directions(i, j, k, 7)});
+    const KnownOfCell known{tables_.is_crossed(i, j, k), tables_.directions(i, j, k, 7)};
+    const CellCertificate certificate = prover_.certify(proof_atoms_, model, kProofDepth, known);
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
            i + kBrickCells * (j + kBrickCells * k),

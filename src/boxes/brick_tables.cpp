@@ -114,8 +114,8 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
   if (!sum_up(atoms, decay, planes)) return;
   take_logarithms(log_sums_.data(), log_sums_.size());
 
-  // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums above and in
-  // the tables; and those of planes, which are not quite evenly spaced.
+  // Rounding of an exponent: some ulp of the log-weight and of d times the squares of distances, in the sums above and
+  // in the tables; and those of planes, which are not quite evenly spaced.
   double largest_sq = 0.0, largest_coordinate = 0.0, edge = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double reach = std::max(std::abs(planes[k].back() - atoms.lo[k]), std::abs(atoms.hi[k] - planes[k].front()));
@@ -129,8 +129,8 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
   inside_above_ = error;
   free_above_ = 4.0 * error;
   if (atoms.tail < 1.0) outside_below_ = std::log1p(-atoms.tail) - error;
-  // At a point p with phi = c the atoms listed have psi >= log(1 - tail), and grow by (psi(p) - psi - d L^2) / L at least;
-  // those left out take away their slope from it.
+  // At a point p with phi = c the atoms listed have psi >= log(1 - tail), and grow by (psi(p) - psi - d L^2) / L at
+  // least; those left out take away their slope from it.
   if (atoms.tail < 0.05) grows_below_ = outside_below_ - error;
   edge_slope_ = 1.1 * edge * atoms.tail_slope;
 
@@ -189,8 +189,8 @@ unsigned BrickTables::directions(int i, int j, int k, unsigned extent) const {
   unsigned result = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(extent >> axis & 1)) continue;
-    // Corners of what is cut by a plane across the axis: between them psi is larger by d a^2 / 4 at most for each of the
-    // other axes.
+    // Corners of what is cut by a plane across the axis: between them psi is larger by d a^2 / 4 at most for each of
+    // the other axes.
     const int other[2] = {(axis + 1) % 3, (axis + 2) % 3};
     const int u = extent >> other[0] & 1 ? kStride[other[0]] : 0, v = extent >> other[1] & 1 ? kStride[other[1]] : 0;
     const double base = grows_below_ - 0.25 * square_ * ((u != 0) + (v != 0));

@@ -29,7 +29,8 @@ class BrickTables {
  public:
   /// Planes through the corners of a brick's cells, and one more on both sides of it.
   static constexpr int kPlanes = kBrickCells + 3;
-  /// Coordinates of the planes, by axis (A): spaced evenly and alike; the brick goes from the second to the last but one.
+  /// Coordinates of the planes, by axis (A): spaced evenly and alike; the brick goes from the second to the last but
+  /// one.
   using Planes = std::array<std::array<double, kPlanes>, 3>;
 
   /// `atoms` were collected for the whole brick. Cost: 33 exponentials and 1500 multiplications per atom.
@@ -41,9 +42,8 @@ class BrickTables {
   /// Whether corners of the cell are proven to be on both sides.
   bool is_crossed(int i, int j, int k) const;
 
-  /// Of the cell, a face or an edge of it: what reaches from its lowest corner along axis n where bit n of `extent` is set.
-  ///
-  /// Whether there is no surface in it.
+  /// Of the cell, a face or an edge of it: what reaches from its lowest corner along axis n where bit n of `extent` is
+  /// set. Whether there is no surface in it.
   bool is_free(int i, int j, int k, unsigned extent) const;
   /// Along which axes phi passes c in one sense only wherever it does in it: bit 2 n + 1 is growth along axis n, bit
   /// 2 n is fall.
@@ -67,7 +67,7 @@ class BrickTables {
 
   std::array<std::uint8_t, kBrickCells * kBrickCells * kBrickCells> cells_{};
   std::array<double, kRows * kPlanes> log_sums_{};  ///< S / c, then psi, at all crossings of planes
-  double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner: errors and atoms left out are in it
+  double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner, errors and all
   double square_ = 0.0;       ///< d a^2, rounded up
   double free_above_ = 0.0;   ///< what bounds of psi between corners prove an inside, as inside_above_
   double grows_below_ = 0.0;  ///< what psi + d L^2 must be below for directions ...
