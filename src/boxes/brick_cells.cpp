@@ -63,7 +63,6 @@ void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& 
     const CellCertificate certificate = prover_.certify(proof_atoms_, model, kProofDepth, known);
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},
-           i + kBrickCells * (j + kBrickCells * k),
            octant_atoms_,
            model,
            certificate,

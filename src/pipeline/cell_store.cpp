@@ -45,12 +45,12 @@ class BrickBuilder {
 
  private:
   void add_cell(Brick& brick, const BrickWalker::Cell& found) {
+    const auto [i, j, k] = found.in_brick;
     SurfaceCell cell;
-    cell.local = static_cast<std::uint16_t>(found.local);
+    cell.local = static_cast<std::uint16_t>(i + kBrickCells * (j + kBrickCells * k));
     cell.direction = found.certificate.direction;
     cell.first_root = static_cast<std::uint32_t>(roots_->size());
     const CoordPoint lo = lattice_.point(found.lo);
-    const auto [i, j, k] = found.in_brick;
     for (int axis = 0; axis < 3; ++axis) {
       cell.face[axis] = face_certificate(found, axis);
       const unsigned edge = 1u << axis;

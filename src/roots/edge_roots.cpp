@@ -83,8 +83,9 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     const auto [value, gradient_slope, gradient_curvature] = evaluate_along(atoms, decay, point, axis);
     const double slope = value.gradient[axis], curvature = gradient_slope[axis], third = gradient_curvature[axis];
     // The derivatives of log phi are cumulants of y = 2 d times the atoms' positions, less 2 d in the second: the
-    // fourth one is at most the range of y squared times its variance.
-    const double fourth = range * range * (curvature + 2.0 * decay);
+    // fourth one is at most the range of y squared times its variance, which by the third one changes by no more than
+    // a fifth over steps shorter than 0.18 / range.
+    const double fourth = 1.2 * range * range * (curvature + 2.0 * decay);
     root = {x, value.gradient};
     ((value.value > 0.0) == inside_a ? a : b) = x;
     double next = cubic_zero(x, value.value, slope, curvature, third);
@@ -97,7 +98,8 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     // than half over the step; and the step of Newton's method to its zero, by no more than step (bend / slope)^3 /
     // 36. The gradient, corrected to second order, is good to 1e-7 then.
     const double bend = step * (std::abs(curvature) + step * (std::abs(third) + step * fourth)) / std::abs(slope);
-    const bool is_near = step * step * step * step * fourth < 12.0 * kRootTolerance * std::abs(slope) && bend < 0.5 &&
+    const bool is_near = step * range < 0.18 &&
+                         step * step * step * step * fourth < 12.0 * kRootTolerance * std::abs(slope) && bend < 0.5 &&
                          step * bend * bend * bend < 18.0 * kRootTolerance &&
                          step * step * step * decay * std::sqrt(decay) < 1e-8;
     if (is_near || b - a < kRootTolerance) return root;
