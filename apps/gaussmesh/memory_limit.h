@@ -7,7 +7,7 @@
 
 namespace gaussmesh::app {
 
-/// What --max-memory takes at least (bytes): a quarter for the heap, and as much for what is touched before
+/// What --max-memory takes at least (bytes): an eighth for the heap, and half for what is touched before
 /// the limit is looked at again.
 inline constexpr std::uint64_t kLeastMemory = std::uint64_t{128} << 20;
 
@@ -19,7 +19,7 @@ struct NoRoomOnDisk : std::bad_alloc {
   }
 };
 
-/// From now on at most a quarter of `limit` (bytes) is taken from the heap. Everything beyond is in a file in
+/// From now on at most an eighth of `limit` (bytes) is taken from the heap. Everything beyond is in a file in
 /// `folder`, which has no name and is gone when the program ends, and is mapped into memory. When more than the
 /// limit would be resident, pages of the file are unmapped, one stretch of it after another, until they are asked
 /// for again.

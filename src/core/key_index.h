@@ -31,6 +31,11 @@ class KeyIndex {
   }
 
   bool contains(const Key& key) const { return find(key).has_value(); }
+  /// Forgets the keys, and keeps the room that they had.
+  void clear() {
+    keys_.clear();
+    slots_.clear();
+  }
   std::size_t size() const { return keys_.size(); }
   const Key& operator[](std::size_t number) const { return keys_[number]; }
 

@@ -7,6 +7,8 @@
 #include <exception>
 #include <optional>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace gaussmesh {
 
@@ -65,6 +67,23 @@ void parallel_for_chunks(std::size_t count, std::size_t size, int threads, const
   parallel_for((count + size - 1) / size, threads, [&](std::size_t chunk) {
     work(chunk, chunk * size, count < (chunk + 1) * size ? count : (chunk + 1) * size);
   });
+}
+
+/// Calls gather(first, last, list) for the same parts of 0 .. count - 1, each with a list of its own.
+/// @return the lists one after the other, in the order of the parts
+template <typename Entry, typename Gather>
+std::vector<Entry> parallel_gather(std::size_t count, std::size_t size, int threads, const Gather& gather) {
+  std::vector<std::vector<Entry>> parts((count + size - 1) / size);
+  parallel_for_chunks(count, size, threads, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    gather(first, last, parts[chunk]);
+  });
+  if (parts.size() == 1) return std::move(parts[0]);
+  std::size_t entries = 0;
+  for (const auto& part : parts) entries += part.size();
+  std::vector<Entry> all;
+  all.reserve(entries);
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace gaussmesh

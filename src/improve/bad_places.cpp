@@ -13,21 +13,6 @@ constexpr std::size_t kTrianglesAtOnce = 4096;
 /// With room for the rounding of normals.
 const double kHalfASharpTurn = std::sqrt(0.5 * (1.0 + kSharpTurn)) + 1e-3;
 
-/// The numbers of the triangles for which choose() says so, in rising order.
-template <typename Choose>
-std::vector<std::uint32_t> choose_triangles(const WholeMesh& mesh, int threads, const Choose& choose) {
-  std::vector<std::vector<std::uint32_t>> parts(mesh.triangles.size() / kTrianglesAtOnce + 1);
-  parallel_for_chunks(mesh.triangles.size(), kTrianglesAtOnce, threads,
-                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
-                        for (std::size_t t = first; t < last; ++t) {
-                          if (choose(mesh.triangles[t])) parts[chunk].push_back(static_cast<std::uint32_t>(t));
-                        }
-                      });
-  std::vector<std::uint32_t> chosen;
-  for (const auto& part : parts) chosen.insert(chosen.end(), part.begin(), part.end());
-  return chosen;
-}
-
 /// An edge of one of the triangles that are looked at.
 struct SideOf {
   std::uint32_t low, high, triangle;
@@ -38,17 +23,18 @@ struct SideOf {
 /// @param is_turned  by vertex, whether some triangle is turned far from the normal there
 void add_sharp_edges(const WholeMesh& mesh, const std::vector<std::uint8_t>& is_turned, int threads,
                      std::vector<std::uint32_t>& bad) {
-  const auto has_turned_side = [&](const Triangle& t) {
-    return is_turned[t[0]] + is_turned[t[1]] + is_turned[t[2]] >= 2;
-  };
-  std::vector<SideOf> sides;
-  for (const std::uint32_t number : choose_triangles(mesh, threads, has_turned_side)) {
-    const Triangle& t = mesh.triangles[number];
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-      if (is_turned[low] && is_turned[high]) sides.push_back({low, high, number});
-    }
-  }
+  std::vector<SideOf> sides = parallel_gather<SideOf>(
+      mesh.triangles.size(), kTrianglesAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<SideOf>& list) {
+        for (std::size_t number = first; number < last; ++number) {
+          const Triangle& t = mesh.triangles[number];
+          if (is_turned[t[0]] + is_turned[t[1]] + is_turned[t[2]] < 2) continue;
+          for (int i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+            if (is_turned[low] && is_turned[high]) list.push_back({low, high, static_cast<std::uint32_t>(number)});
+          }
+        }
+      });
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high) continue;
@@ -63,15 +49,32 @@ void add_sharp_edges(const WholeMesh& mesh, const std::vector<std::uint8_t>& is_
 
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads) {
   const TriangleQuality good{kLeastSine, kHalfASharpTurn};
+  struct Found {
+    std::uint32_t vertex;
+    bool is_turned;  ///< a triangle from the normal here; otherwise it has too small an angle
+  };
+  const auto found = parallel_gather<Found>(
+      mesh.triangles.size(), kTrianglesAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<Found>& list) {
+        for (std::size_t number = first; number < last; ++number) {
+          const Triangle& t = mesh.triangles[number];
+          if (is_at_least(mesh, t, good)) continue;
+          const bool is_thin = triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine;
+          const Vec3 normal = area_normal(mesh, t);
+          const double least = kHalfASharpTurn * length(normal);
+          for (const std::uint32_t v : t) {
+            if (is_thin) list.push_back({v, false});
+            if (dot(normal, mesh.normal[v]) < least) list.push_back({v, true});
+          }
+        }
+      });
   std::vector<std::uint32_t> bad;
   std::vector<std::uint8_t> is_turned(mesh.at.size(), 0);
-  for (const std::uint32_t number :
-       choose_triangles(mesh, threads, [&](const Triangle& t) { return !is_at_least(mesh, t, good); })) {
-    const Triangle& t = mesh.triangles[number];
-    if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine) bad.insert(bad.end(), t.begin(), t.end());
-    const Vec3 normal = area_normal(mesh, t);
-    for (const std::uint32_t v : t) {
-      if (dot(normal, mesh.normal[v]) < kHalfASharpTurn * length(normal)) is_turned[v] = 1;
+  for (const Found& f : found) {
+    if (f.is_turned) {
+      is_turned[f.vertex] = 1;
+    } else {
+      bad.push_back(f.vertex);
     }
   }
   add_sharp_edges(mesh, is_turned, threads, bad);
@@ -85,14 +88,15 @@ std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
   for (const Vec3& place : places) {
     const Box box = widened({place, place}, half_edge);
     bool is_free = true;
-    grid.visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
+    BoxGrid::Reader(grid).visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
     if (!is_free) continue;
     grid.add(box, static_cast<std::uint32_t>(boxes.size()));
     boxes.push_back(box);
   }
+  BoxGrid::Reader reader(grid);
   std::erase_if(places, [&](const Vec3& place) {
     bool is_taken = false;
-    grid.visit({place, place}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place); });
+    reader.visit({place, place}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place); });
     return is_taken;
   });
   return boxes;

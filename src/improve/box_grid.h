@@ -46,30 +46,36 @@ class BoxGrid {
   }
 
   /// The numbers kept in a cube.
-  std::vector<std::uint32_t>& numbers_in(const Cube& cube) {
-    last_.reset();
-    return numbers_[cube];
-  }
+  std::vector<std::uint32_t>& numbers_in(const Cube& cube) { return numbers_[cube]; }
 
   /// Keeps the number of a box in all cubes that it reaches into.
   void add(const Box& box, std::uint32_t number) {
-    last_.reset();
     visit_cubes(box, [&](const Cube& cube) { numbers_[cube].push_back(number); });
   }
 
-  /// Calls visit(number) for those in cubes that a box reaches into: one that is in several, more than once. Fast where
-  /// small boxes follow each other in one cube.
-  template <typename Visit>
-  void visit(const Box& box, const Visit& visit) {
-    visit_cubes(box, [&](const Cube& cube) {
-      if (!last_ || cube != last_cube_) {
-        const auto it = numbers_.find(cube);
-        last_ = it != numbers_.end() ? it->second : std::span<const std::uint32_t>();
-        last_cube_ = cube;
-      }
-      for (const std::uint32_t number : *last_) visit(number);
-    });
-  }
+  /// Asks a grid that does not change as long as this lives. Fast where small boxes follow each other in one cube.
+  class Reader {
+   public:
+    explicit Reader(const BoxGrid& grid) : grid_(grid) {}
+
+    /// Calls visit(number) for those in cubes that a box reaches into: one that is in several, more than once.
+    template <typename Visit>
+    void visit(const Box& box, const Visit& visit) {
+      grid_.visit_cubes(box, [&](const Cube& cube) {
+        if (!last_ || cube != last_cube_) {
+          const auto it = grid_.numbers_.find(cube);
+          last_ = it != grid_.numbers_.end() ? it->second : std::span<const std::uint32_t>();
+          last_cube_ = cube;
+        }
+        for (const std::uint32_t number : *last_) visit(number);
+      });
+    }
+
+   private:
+    const BoxGrid& grid_;
+    Cube last_cube_{};
+    std::optional<std::span<const std::uint32_t>> last_;  ///< what is in it; none: not looked up
+  };
 
  private:
   struct CubeHash {
@@ -95,8 +101,6 @@ class BoxGrid {
   double edge_, per_edge_;
   Vec3 shift_;
   std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> numbers_;
-  Cube last_cube_{};
-  std::optional<std::span<const std::uint32_t>> last_;  ///< what is in it; none: not looked up
 };
 
 }  // namespace gaussmesh

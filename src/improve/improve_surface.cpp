@@ -1,6 +1,7 @@
 #include "improve/improve_surface.h"
 
 #include <atomic>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "improve/bad_places.h"
@@ -51,24 +52,28 @@ constexpr double kEffortInBoxes = 1.0;
 
 WholeMesh start_with(SurfaceMesh traced, double spacing) {
   WholeMesh mesh;
-  mesh.triangles = std::move(traced.triangles);
-  mesh.reserve(traced.points.size());
-  for (const SurfacePoint& p : traced.points) {
-    mesh.at.push_back(to_angstrom(p.position));
-    mesh.normal.push_back(p.normal);
-  }
+  mesh.triangles = std::move(traced.mesh.triangles);
+  mesh.at = std::move(traced.mesh.vertices);
+  mesh.normal = std::move(traced.normals);
   mesh.size.assign(mesh.at.size(), static_cast<float>(spacing));
   mesh.curvature.assign(mesh.at.size(), -1.0f);
   mesh.refinement.assign(mesh.at.size(), 1.0f);
   return mesh;
 }
 
-double mean_edge(const WholeMesh& mesh) {
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
-  }
-  return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+double mean_edge(const WholeMesh& mesh, int threads) {
+  constexpr std::size_t kTrianglesAtOnce = 65536;
+  const auto sums = parallel_gather<double>(
+      mesh.triangles.size(), kTrianglesAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<double>& list) {
+        double sum = 0.0;
+        for (std::size_t number = first; number < last; ++number) {
+          const Triangle& t = mesh.triangles[number];
+          for (int i = 0; i < 3; ++i) sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
+        }
+        list.push_back(sum);
+      });
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
 std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
@@ -153,17 +158,6 @@ std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, 
   }
 }
 
-SurfaceMesh finish(WholeMesh mesh) {
-  SurfaceMesh result;
-  result.triangles = std::move(mesh.triangles);
-  result.points.resize(mesh.at.size());
-  for (std::size_t v = 0; v < mesh.at.size(); ++v) {
-    result.points[v].position = to_units(mesh.at[v]);
-    result.points[v].normal = mesh.normal[v];
-  }
-  return result;
-}
-
 }  // namespace
 
 SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
@@ -177,7 +171,9 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   for (const Sweep& sweep : kSweeps) all += effort(sweep);
   const auto run = [&](MeshBlocks blocks, double effort, const auto& work) {
     std::atomic<int> blocks_done = 0;
-    parallel_for(blocks.size(), threads, [&](std::size_t b) {
+    const std::vector<std::uint32_t> order = blocks.largest_first();
+    parallel_for(order.size(), threads, [&](std::size_t i) {
+      const std::size_t b = order[i];
       BlockMesh block = blocks.extract(b);
       work(b, block);
       blocks.store(b, std::move(block));
@@ -192,7 +188,7 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), effort(sweep),
                [&](std::size_t, BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
     if (number <= kSweepsForLargest) {
-      const double wish = now.largest * targets.spacing / mean_edge(mesh);
+      const double wish = now.largest * targets.spacing / mean_edge(mesh, threads);
       now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
@@ -209,7 +205,7 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
-  return finish(std::move(mesh));
+  return {{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)};
 }
 
 }  // namespace gaussmesh

@@ -7,14 +7,13 @@
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
 #include "improve/size_field.h"
-#include "roots/edge_roots.h"
 
 namespace gaussmesh {
 
 /// A mesh of the surface with the field's normals at its vertices.
 struct SurfaceMesh {
-  std::vector<SurfacePoint> points;
-  std::vector<Triangle> triangles;
+  TriangleMesh mesh;  ///< coordinates are whole units
+  std::vector<Normal> normals;
 };
 
 /// How triangles are kept from meeting.

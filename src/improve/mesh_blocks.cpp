@@ -1,5 +1,6 @@
 #include "improve/mesh_blocks.h"
 
+#include <numeric>
 #include <utility>
 
 #include "core/parallel.h"
@@ -71,23 +72,28 @@ double longest_extent(const WholeMesh& mesh, int threads) {
 MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift, int threads)
     : mesh_(std::move(whole)), block_of_(mesh_.at.size()) {
   BoxGrid grid(edge, shift);
-  BoxGrid::Cube last{};
-  for (std::uint32_t v = 0; v < mesh_.at.size(); ++v) {
-    const BoxGrid::Cube cube = grid.cube_of(mesh_.at[v]);
-    if (v > 0 && cube == last) {
-      block_of_[v] = block_of_[v - 1];
-      continue;
-    }
-    last = cube;
-    std::vector<std::uint32_t>& blocks = grid.numbers_in(cube);
+  struct Run {
+    BoxGrid::Cube cube;
+    std::uint32_t first;  ///< of vertices that follow each other in a cube
+  };
+  const auto runs = parallel_gather<Run>(
+      mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t first, std::size_t last, std::vector<Run>& list) {
+        for (std::size_t v = first; v < last; ++v) {
+          const BoxGrid::Cube cube = grid.cube_of(mesh_.at[v]);
+          if (list.empty() || list.back().cube != cube) list.push_back({cube, static_cast<std::uint32_t>(v)});
+        }
+      });
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::vector<std::uint32_t>& blocks = grid.numbers_in(runs[r].cube);
     if (blocks.empty()) {
       blocks.push_back(static_cast<std::uint32_t>(boxes_.size()));
-      boxes_.push_back(grid.box_of(cube));
+      boxes_.push_back(grid.box_of(runs[r].cube));
     }
-    block_of_[v] = blocks[0];
+    const auto end = r + 1 < runs.size() ? block_of_.begin() + runs[r + 1].first : block_of_.end();
+    std::fill(block_of_.begin() + runs[r].first, end, blocks[0]);
   }
   list_members(threads);
-  list_reaching(grid, between_);
+  list_reaching(grid, between_, threads);
 }
 
 MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int threads)
@@ -98,7 +104,7 @@ MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int
   for (std::uint32_t b = 0; b < boxes_.size(); ++b) near.add(widened(boxes_[b], extent), b);
   std::vector<std::uint8_t> is_near(mesh_.at.size(), 0);
   parallel_for_chunks(mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {
-    BoxGrid grid = near;  // which remembers where it was asked last
+    BoxGrid::Reader grid(near);
     for (std::size_t v = first; v < last; ++v) {
       const Vec3& p = mesh_.at[v];
       block_of_[v] = kNowhere;
@@ -109,12 +115,14 @@ MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int
     }
   });
   list_members(threads);
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const Triangle& v = mesh_.triangles[t];
-    if (is_near[v[0]] && !is_in_block(v)) others.push_back(t);
-  }
-  list_reaching(near, others);
+  const auto others = parallel_gather<std::uint32_t>(
+      between_.size(), kMembersAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+        for (std::size_t i = first; i < last; ++i) {
+          if (is_near[mesh_.triangles[between_[i]][0]]) list.push_back(between_[i]);
+        }
+      });
+  list_reaching(near, others, threads);
 }
 
 /// Whether all corners are in one block.
@@ -134,35 +142,48 @@ void MeshBlocks::list_members(int threads) {
     const Triangle& triangle = mesh_.triangles[t];
     return is_in_block(triangle) ? block_of_[triangle[0]] : kNowhere;
   }, first_triangle_, triangles_);
-  std::vector<std::vector<std::uint32_t>> between(mesh_.triangles.size() / kMembersAtOnce + 1);
-  parallel_for_chunks(mesh_.triangles.size(), kMembersAtOnce, threads,
-                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
-                        for (std::size_t t = first; t < last; ++t) {
-                          if (!is_in_block(mesh_.triangles[t])) between[chunk].push_back(static_cast<std::uint32_t>(t));
-                        }
-                      });
-  for (const auto& part : between) between_.insert(between_.end(), part.begin(), part.end());
+  between_ = parallel_gather<std::uint32_t>(
+      mesh_.triangles.size(), kMembersAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+        for (std::size_t t = first; t < last; ++t) {
+          if (!is_in_block(mesh_.triangles[t])) list.push_back(static_cast<std::uint32_t>(t));
+        }
+      });
   stored_.resize(boxes_.size());
 }
 
 /// Lists the ones of some triangles that reach into each box.
-void MeshBlocks::list_reaching(BoxGrid& grid, std::span<const std::uint32_t> triangles) {
-  std::vector<std::array<std::uint32_t, 2>> reaching;
-  for (const std::uint32_t t : triangles) {
-    const Box box = box_of(mesh_, mesh_.triangles[t]);
-    const std::size_t first = reaching.size();
-    grid.visit(box, [&](std::uint32_t b) {
-      const auto is_listed = [&](const auto& pair) { return pair[0] == b; };
-      const auto begin = reaching.begin() + static_cast<std::ptrdiff_t>(first);
-      if (boxes_meet(box, boxes_[b]) && std::none_of(begin, reaching.end(), is_listed)) reaching.push_back({b, t});
-    });
-  }
+void MeshBlocks::list_reaching(const BoxGrid& grid, std::span<const std::uint32_t> triangles, int threads) {
+  using Pair = std::array<std::uint32_t, 2>;  // box, triangle
+  const auto reaching = parallel_gather<Pair>(
+      triangles.size(), kMembersAtOnce, threads, [&](std::size_t first, std::size_t last, std::vector<Pair>& list) {
+        BoxGrid::Reader reader(grid);
+        for (const std::uint32_t t : triangles.subspan(first, last - first)) {
+          const Box box = box_of(mesh_, mesh_.triangles[t]);
+          const auto own = static_cast<std::ptrdiff_t>(list.size());
+          reader.visit(box, [&](std::uint32_t b) {
+            const auto is_listed = [&](const Pair& pair) { return pair[0] == b; };
+            if (boxes_meet(box, boxes_[b]) && std::none_of(list.begin() + own, list.end(), is_listed)) {
+              list.push_back({b, t});
+            }
+          });
+        }
+      });
   first_fixed_.assign(boxes_.size() + 1, 0);
   for (const auto& pair : reaching) ++first_fixed_[pair[0] + 1];
   for (std::size_t b = 0; b < boxes_.size(); ++b) first_fixed_[b + 1] += first_fixed_[b];
   fixed_.resize(reaching.size());
   std::vector<std::uint32_t> fill(first_fixed_.begin(), first_fixed_.end() - 1);
   for (const auto& [b, t] : reaching) fixed_[fill[b]++] = t;
+}
+
+std::vector<std::uint32_t> MeshBlocks::largest_first() const {
+  std::vector<std::uint32_t> blocks(boxes_.size());
+  std::iota(blocks.begin(), blocks.end(), 0u);
+  std::stable_sort(blocks.begin(), blocks.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return first_triangle_[a + 1] - first_triangle_[a] > first_triangle_[b + 1] - first_triangle_[b];
+  });
+  return blocks;
 }
 
 BlockMesh MeshBlocks::extract(std::size_t block) const {

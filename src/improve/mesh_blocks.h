@@ -33,6 +33,9 @@ class MeshBlocks {
 
   std::size_t size() const { return boxes_.size(); }
 
+  /// All blocks, those with most triangles first: in this order threads end their work at nearly the same time.
+  std::vector<std::uint32_t> largest_first() const;
+
   /// One block to work on. Thread-safe.
   BlockMesh extract(std::size_t block) const;
 
@@ -50,7 +53,7 @@ class MeshBlocks {
   };
   bool is_in_block(const Triangle& t) const;
   void list_members(int threads);
-  void list_reaching(BoxGrid& grid, std::span<const std::uint32_t> triangles);
+  void list_reaching(const BoxGrid& grid, std::span<const std::uint32_t> triangles, int threads);
 
   WholeMesh mesh_;
   std::vector<Box> boxes_;

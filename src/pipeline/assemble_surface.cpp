@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/give_back_memory.h"
 #include "core/parallel.h"
 #include "field/point_value.h"
 #include "gaussmesh/error.h"
@@ -329,43 +330,55 @@ std::size_t CellTriangulator::fold_cells() const {
 }
 
 SurfaceMesh CellTriangulator::join(CellStore& store, TracedVertices& vertices, int threads) && {
+  constexpr std::size_t kPointsAtOnce = 65536;
   std::size_t inner_points = 0;
   for (const PatchedCells& cells : patched_) inner_points += cells.points.size();
-  SurfaceMesh surface;
-  surface.points = store.release_roots();
-  std::vector<SurfacePoint> added = vertices.release_added();
-  surface.points.reserve(surface.points.size() + added.size() + inner_points);
-  surface.points.insert(surface.points.end(), added.begin(), added.end());
-  added = {};
+  std::vector<SurfacePoint> roots = store.release_roots(), added = vertices.release_added();
+  give_back_memory();  // the store's cells and links
   std::vector<std::uint32_t> dead_vertices = vertices.dropped();
   std::sort(dead_vertices.begin(), dead_vertices.end());
-  for (std::size_t i = 0; i < dead_vertices.size(); ++i) {
-    // The living ones from a dead one to the next move down by as many as are dead before them.
-    const auto from = surface.points.begin() + static_cast<std::ptrdiff_t>(dead_vertices[i]) + 1;
-    const auto to = i + 1 < dead_vertices.size()
-                        ? surface.points.begin() + static_cast<std::ptrdiff_t>(dead_vertices[i + 1])
-                        : surface.points.end();
-    std::copy(from, to, from - static_cast<std::ptrdiff_t>(i) - 1);
-  }
-  surface.points.resize(surface.points.size() - dead_vertices.size());
-  std::vector<std::size_t> first_triangle{0}, first_point{surface.points.size()};
+  // How many vertices are dead before this one, which are as many as it moves down.
+  const auto dead_before = [&](std::uint32_t v) {
+    return std::lower_bound(dead_vertices.begin(), dead_vertices.end(), v) - dead_vertices.begin();
+  };
+
+  const std::size_t traced = roots.size() + added.size(), living = traced - dead_vertices.size();
+  SurfaceMesh surface;
+  surface.mesh.vertices.resize(living + inner_points);
+  surface.normals.resize(living + inner_points);
+  const auto put = [&](std::size_t at, const SurfacePoint& p) {
+    surface.mesh.vertices[at] = to_angstrom(p.position);
+    surface.normals[at] = p.normal;
+  };
+  parallel_for_chunks(traced, kPointsAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    auto dead = static_cast<std::size_t>(dead_before(static_cast<std::uint32_t>(first)));
+    for (std::size_t v = first; v < last; ++v) {
+      if (dead < dead_vertices.size() && dead_vertices[dead] == v) {
+        ++dead;
+      } else {
+        put(v - dead, v < roots.size() ? roots[v] : added[v - roots.size()]);
+      }
+    }
+  });
+  for (auto* points : {&roots, &added}) *points = std::vector<SurfacePoint>();  // before there are triangles
+  std::vector<std::size_t> first_triangle{0}, first_point{living};
   for (const PatchedCells& cells : patched_) {
     first_triangle.push_back(first_triangle.back() + cells.triangles.size());
     first_point.push_back(first_point.back() + cells.points.size());
   }
-  surface.triangles.resize(first_triangle.back());
-  surface.points.resize(first_point.back());
+  surface.mesh.triangles.resize(first_triangle.back());
   parallel_for(patched_.size(), threads, [&](std::size_t i) {
     PatchedCells& cells = patched_[i];
     const auto base = static_cast<std::uint32_t>(first_point[i]);
     const auto numbered = [&](std::uint32_t v) {
       if (v >= kLocalVertex) return base + (v - kLocalVertex);
-      const auto dead = std::lower_bound(dead_vertices.begin(), dead_vertices.end(), v);
-      return v - static_cast<std::uint32_t>(dead - dead_vertices.begin());
+      return v - static_cast<std::uint32_t>(dead_before(v));
     };
     std::size_t at = first_triangle[i];
-    for (const Triangle& t : cells.triangles) surface.triangles[at++] = {numbered(t[0]), numbered(t[1]), numbered(t[2])};
-    std::copy(cells.points.begin(), cells.points.end(), surface.points.begin() + static_cast<std::ptrdiff_t>(base));
+    for (const Triangle& t : cells.triangles) {
+      surface.mesh.triangles[at++] = {numbered(t[0]), numbered(t[1]), numbered(t[2])};
+    }
+    for (std::size_t p = 0; p < cells.points.size(); ++p) put(base + p, cells.points[p]);
     cells = {};
   });
   return surface;

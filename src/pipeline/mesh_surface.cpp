@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/give_back_memory.h"
 #include "core/lattice_degenerate.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
@@ -16,23 +17,11 @@
 #include "pipeline/critical_point.h"
 #include "pipeline/trace_surface.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace gaussmesh {
 namespace {
 
 /// How far vertices may be from phi = c (A): the promise of mesh_surface().
 constexpr double kVertexTolerance = 1e-6;
-
-/// Hands memory that is free to the system: what a stage leaves behind in many small pieces is of no use to the large
-/// arrays of the next.
-void give_back_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
 
 /// Measures the stages one after the other.
 class Stopwatch {
@@ -41,7 +30,6 @@ class Stopwatch {
       : stages_(stages), on_stage_end_(std::move(on_stage_end)) {}
 
   void finished(const std::string& name) {
-    give_back_memory();
     if (on_stage_end_) on_stage_end_(name);
     const auto now = Clock::now();
     const double time_s = std::chrono::duration<double>(now - last_).count();
@@ -96,16 +84,9 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-void to_mesh(SurfaceMesh surface, MeshResult& result) {
-  result.mesh.vertices.clear();
-  result.normals.clear();
-  result.mesh.vertices.reserve(surface.points.size());
-  result.normals.reserve(surface.points.size());
-  for (const SurfacePoint& p : surface.points) {
-    result.mesh.vertices.push_back(to_angstrom(p.position));
-    result.normals.push_back(p.normal);
-  }
-  result.mesh.triangles = std::move(surface.triangles);
+void take_mesh(SurfaceMesh surface, MeshResult& result) {
+  result.mesh = std::move(surface.mesh);
+  result.normals = std::move(surface.normals);
 }
 
 void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
@@ -170,8 +151,8 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
 }
 
 /// V - F / 2, which is the Euler number of a closed mesh.
-std::int64_t euler_number(const SurfaceMesh& mesh) {
-  return static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
+std::int64_t euler_number(const TriangleMesh& mesh) {
+  return static_cast<std::int64_t>(mesh.vertices.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
 }
 
 /// The traced surface, with the certificate in `report`.
@@ -193,7 +174,7 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
   }
   give_back_memory();  // cells, roots and curves, most of what there is up to here
   describe_trace(trace, options.spacing, report);
-  if (trace.surface.triangles.empty()) {
+  if (trace.surface.mesh.triangles.empty()) {
     throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
                           " everywhere; choose a smaller c");
   }
@@ -204,11 +185,11 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
 bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
              int threads, Stopwatch& watch, MeshResult& result) {
   const auto& on_progress = result.report.options.on_improving;
-  const std::int64_t chi = euler_number(traced);
+  const std::int64_t chi = euler_number(traced.mesh);
   result.mesh = {};  // of an attempt before
   SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
-  const bool same_topology = euler_number(improved) == chi;
-  to_mesh(std::move(improved), result);
+  const bool same_topology = euler_number(improved.mesh) == chi;
+  take_mesh(std::move(improved), result);
   watch.finished("improve");
   result.report.check = check_mesh(result.mesh);
   watch.finished("verify");
@@ -239,7 +220,7 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
   };
   bool is_good = true;
   if (!options.improve) {
-    to_mesh(trace(), result);
+    take_mesh(trace(), result);
     report.check = check_mesh(result.mesh);
     is_good = report.check.fit_for_solver();
     if (options.measure_distance) measure();

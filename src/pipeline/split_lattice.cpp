@@ -256,43 +256,74 @@ SplitLattice::LatticeKey SplitLattice::whole_edge(int axis, const FineIndex& lo)
   return LatticeKey(moved(lo, axis, round_down(lo[axis], fine_size(level)) - lo[axis]), axis, level);
 }
 
-void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads) {
-  KeyIndex<LatticeKey, LatticeKeyHash> edges;
-  std::vector<std::uint8_t> is_monotone;
-  std::vector<Task> tasks;
-  for (const SplitCell& cell : cells) {
-    for (const LeafCell& leaf : cell.leaves) {
-      const std::size_t first_edge = edges.size();
-      const std::int64_t size = fine_size(leaf.key.level);
-      for (int axis = 0; axis < 3; ++axis) {
-        for (int corner = 0; corner < 4; ++corner) {
-          const FineIndex lo = moved(moved(leaf.key.lo, first_axis(axis), (corner & 1) * size), second_axis(axis),
-                                     (corner >> 1) * size);
-          const LatticeKey edge = whole_edge(axis, lo);
-          if (edge.level == 0 || edges_.contains(edge)) continue;
-          const auto [number, is_new] = edges.insert(edge);
-          if (is_new) is_monotone.push_back(0);
-          if (edge.level == leaf.key.level && (leaf.single_axes >> axis & 1)) is_monotone[number] = 1;
-        }
+template <typename Visit>
+SplitLattice::Wanted SplitLattice::list_wanted(std::span<const SplitCell> cells, const LatticeKeys& found, int threads,
+                                               const Visit& visit) {
+  struct Asked {
+    LatticeKey key;
+    std::uint32_t leaf;  ///< that asked for it first
+    bool is_found;
+    std::uint8_t known;
+  };
+  std::vector<std::vector<Asked>> by_cell(cells.size());
+  parallel_for_workers(cells.size(), threads, kTasksAtOnce, [&] {
+    return [&, keys = LatticeKeys()](std::size_t i) mutable {
+      keys.clear();
+      std::vector<Asked>& asked = by_cell[i];
+      for (std::uint32_t leaf = 0; leaf < cells[i].leaves.size(); ++leaf) {
+        visit(cells[i].leaves[leaf], [&](const LatticeKey& key, unsigned known) {
+          const auto [number, is_new] = keys.insert(key);
+          if (is_new) asked.push_back({key, leaf, found.contains(key), 0});
+          asked[number].known |= static_cast<std::uint8_t>(known);
+        });
       }
-      if (edges.size() > first_edge) tasks.push_back(task(cell, leaf, first_edge, edges.size()));
+    };
+  });
+  Wanted all;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const Asked& asked : by_cell[i]) {
+      if (asked.is_found) continue;
+      const auto [number, is_new] = all.keys.insert(asked.key);
+      if (is_new) all.known.push_back(0);
+      all.known[number] |= asked.known;
+      if (!is_new) continue;
+      const CellKey& leaf = cells[i].leaves[asked.leaf].key;
+      if (all.tasks.empty() || !(all.tasks.back().leaf == leaf)) {
+        all.tasks.push_back({cells[i].key, leaf, number, number});
+      }
+      all.tasks.back().last = number + 1;
     }
   }
-  std::vector<std::vector<EdgeRoot>> found(edges.size());
-  parallel_for_workers(tasks.size(), threads, kTasksAtOnce, [&] {
+  return all;
+}
+
+void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads) {
+  const Wanted edges = list_wanted(cells, edges_, threads, [&](const LeafCell& leaf, const auto& ask) {
+    const std::int64_t size = fine_size(leaf.key.level);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 4; ++corner) {
+        const FineIndex lo = moved(moved(leaf.key.lo, first_axis(axis), (corner & 1) * size), second_axis(axis),
+                                   (corner >> 1) * size);
+        const LatticeKey edge = whole_edge(axis, lo);
+        if (edge.level > 0) ask(edge, edge.level == leaf.key.level ? leaf.single_axes >> axis & 1u : 0u);
+      }
+    }
+  });
+  std::vector<std::vector<EdgeRoot>> found(edges.keys.size());
+  parallel_for_workers(edges.tasks.size(), threads, kTasksAtOnce, [&] {
     return [&, atoms = LocalAtoms(field_), around = CellKey{{}, -1},
             finder = EdgeRootFinder(field_, lattice_)](std::size_t t) mutable {
-      const Task& task = tasks[t];
+      const Task& task = edges.tasks[t];
       if (!(task.cell == around)) atoms.move_to(cell_box(lattice_, around = task.cell));
       const LocalModel in_leaf(atoms.within(proof_reach(task.leaf.level)), field_.decay(),
                                cell_box(lattice_, task.leaf));
       for (std::uint32_t i = task.first; i < task.last; ++i) {
-        const LatticeKey& edge = edges[i];
+        const LatticeKey& edge = edges.keys[i];
         const FineIndex end = moved(edge.lo(), edge.axis, fine_size(edge.level));
         const auto find = [&](const LocalModel& model) {
           const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
                                          lattice_.point(edge.lo()), lattice_.plane(edge.axis, end[edge.axis]),
-                                         {Side::kUnknown, Side::kUnknown, is_monotone[i] != 0});
+                                         {Side::kUnknown, Side::kUnknown, edges.known[i] != 0});
           found[i].assign(roots.begin(), roots.end());
         };
         if (edge.level == task.leaf.level) {
@@ -306,7 +337,7 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, int threads
   });
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].empty()) continue;
-    edges_.insert(edges[i]);
+    edges_.insert(edges.keys[i]);
     edge_roots_.push_back(vertices_.add(found[i]));
   }
 }
@@ -342,48 +373,39 @@ bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
 }
 
 void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
-  KeyIndex<LatticeKey, LatticeKeyHash> faces;
-  std::vector<FaceCertificate> certificates;
-  std::vector<Task> tasks;
-  for (const SplitCell& cell : cells) {
-    for (const LeafCell& leaf : cell.leaves) {
-      const std::size_t first_face = faces.size();
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::int64_t size = fine_size(leaf.key.level);
-        for (const std::int64_t by : {std::int64_t{0}, size}) {
-          const LatticeKey face(moved(leaf.key.lo, axis, by), axis, leaf.key.level);
-          const CellKey beside{moved(leaf.key.lo, axis, by == 0 ? -size : size), leaf.key.level};
-          if (split_.contains(beside) || faces_.contains(face)) continue;
-          const auto [number, is_new] = faces.insert(face);
-          if (is_new) certificates.push_back(kFaceUncertified);
-          const int known = certificates[number] | certificate_in_face(leaf.single_axes, axis);
-          certificates[number] = static_cast<FaceCertificate>(known);
-        }
+  const Wanted faces = list_wanted(cells, faces_, threads, [&](const LeafCell& leaf, const auto& ask) {
+    const std::int64_t size = fine_size(leaf.key.level);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::int64_t by : {std::int64_t{0}, size}) {
+        const CellKey beside{moved(leaf.key.lo, axis, by == 0 ? -size : size), leaf.key.level};
+        if (split_.contains(beside)) continue;
+        const FineIndex lo = moved(leaf.key.lo, axis, by);
+        ask(LatticeKey(lo, axis, leaf.key.level), certificate_in_face(leaf.single_axes, axis));
       }
-      if (faces.size() > first_face) tasks.push_back(task(cell, leaf, first_face, faces.size()));
     }
-  }
-  std::vector<FaceCurves> curves(faces.size());
-  parallel_for_workers(tasks.size(), threads, kTasksAtOnce, [&] {
+  });
+  std::vector<FaceCurves> curves(faces.keys.size());
+  parallel_for_workers(faces.tasks.size(), threads, kTasksAtOnce, [&] {
     return [&, atoms = LocalAtoms(field_), around = CellKey{{}, -1}, tracer = FaceTracer(field_, lattice_),
             roots = std::vector<FaceRoot>()](std::size_t t) mutable {
-      const CellKey& leaf = tasks[t].leaf;
-      if (!(tasks[t].cell == around)) atoms.move_to(cell_box(lattice_, around = tasks[t].cell));
+      const Task& task = faces.tasks[t];
+      if (!(task.cell == around)) atoms.move_to(cell_box(lattice_, around = task.cell));
       tracer.take_atoms_from(atoms);
       std::optional<LocalModel> in_leaf;  // made when a face needs a certificate
-      for (std::uint32_t i = tasks[t].first; i < tasks[t].last; ++i) {
-        const LatticeKey& face = faces[i];
+      for (std::uint32_t i = task.first; i < task.last; ++i) {
+        const LatticeKey& face = faces.keys[i];
         const std::int64_t size = fine_size(face.level);
         const FineIndex end = moved(moved(face.lo(), first_axis(face.axis), size), second_axis(face.axis), size);
         collect_face_roots(face, roots);
-        if (certificates[i] == kFaceUncertified) {
+        auto certificate = static_cast<FaceCertificate>(faces.known[i]);
+        if (certificate == kFaceUncertified) {
           if (!in_leaf) {
-            in_leaf.emplace(atoms.within(proof_reach(leaf.level)), field_.decay(), cell_box(lattice_, leaf));
+            in_leaf.emplace(atoms.within(proof_reach(task.leaf.level)), field_.decay(), cell_box(lattice_, task.leaf));
           }
-          certificates[i] = certify_face(*in_leaf, face.axis, lattice_box(lattice_, face.lo(), end));
+          certificate = certify_face(*in_leaf, face.axis, lattice_box(lattice_, face.lo(), end));
         }
         tracer.set_plain(face.level <= kLastPlainLevel);
-        curves[i] = tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificates[i], roots,
+        curves[i] = tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificate, roots,
                                  fold_axes(face));
       }
     };
@@ -391,7 +413,7 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, int threads) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FaceCurves& found = curves[i];
     if (found.links.empty()) continue;
-    faces_.insert(faces[i]);
+    faces_.insert(faces.keys[i]);
     const VertexRange inside = vertices_.add(found.points);
     face_links_.push_back({static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(found.links.size()),
                            inside});

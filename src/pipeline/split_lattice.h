@@ -123,9 +123,19 @@ class SplitLattice {
     std::uint32_t last = 0;
   };
 
-  static Task task(const SplitCell& cell, const LeafCell& leaf, std::size_t first, std::size_t last) {
-    return {cell.key, leaf.key, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
-  }
+  using LatticeKeys = KeyIndex<LatticeKey, LatticeKeyHash>;
+  /// Edges or faces that leaves ask for, each once and in the order in which they are asked for.
+  struct Wanted {
+    LatticeKeys keys;
+    std::vector<std::uint8_t> known;  ///< by number: all that the leaves know of it, in bits
+    std::vector<Task> tasks;
+  };
+
+  /// @param found  those that are not wanted any more
+  /// @param visit  called with each leaf and ask(key, known), on several threads
+  template <typename Visit>
+  static Wanted list_wanted(std::span<const SplitCell> cells, const LatticeKeys& found, int threads,
+                            const Visit& visit);
   LeafCell find_cell(const CellKey& key) const;
   void split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
@@ -152,8 +162,8 @@ class SplitLattice {
   std::vector<UncertifiedPlace> uncertified_;
   std::vector<CellKey> newly_split_;  ///< by the last call of split()
   std::vector<std::uint32_t> changed_cells_;
-  KeyIndex<LatticeKey, LatticeKeyHash> edges_;  ///< those that have roots
-  KeyIndex<LatticeKey, LatticeKeyHash> faces_;  ///< those that have curves
+  LatticeKeys edges_;  ///< those that have roots
+  LatticeKeys faces_;  ///< those that have curves
   std::vector<VertexRange> edge_roots_;         ///< by number of the edge
   std::vector<FaceLinks> face_links_;           ///< by number of the face
   std::vector<Link> links_;

@@ -165,7 +165,7 @@ void walk_bricks(benchmark::State& state, const Workload& work) {
 /// Bricks and cells as above, then roots, curves and patches.
 void trace_molecule(benchmark::State& state, const Workload& work) {
   for (auto _ : state) benchmark::DoNotOptimize(trace(work.field, work.options.spacing));
-  count_items(state, work.traced.triangles.size());
+  count_items(state, work.traced.mesh.triangles.size());
 }
 
 void improve_molecule(benchmark::State& state, const Workload& work) {

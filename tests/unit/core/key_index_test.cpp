@@ -41,3 +41,13 @@ TEST_CASE("an index without keys finds none") {
   CHECK_FALSE(index.contains({{0, 0, 0}, 0}));
   CHECK(index.size() == 0);
 }
+
+TEST_CASE("an index that was cleared counts from 0 again") {
+  KeyIndex<CellKey, CellKeyHash> index;
+  for (int n = 0; n < 100; ++n) index.insert({{n * kFinePerCell, 0, 0}, 0});
+  index.clear();
+  CHECK(index.size() == 0);
+  CHECK_FALSE(index.contains({{3 * kFinePerCell, 0, 0}, 0}));
+  CHECK(index.insert({{3 * kFinePerCell, 0, 0}, 0}) == std::pair(std::uint32_t{0}, true));
+  CHECK(index.contains({{3 * kFinePerCell, 0, 0}, 0}));
+}

@@ -48,3 +48,17 @@ TEST_CASE("parallel_for keeps the type of what was thrown") {
     CHECK(own.value == 33);
   }
 }
+
+TEST_CASE("what is gathered in parts comes in the order of the parts, whatever the number of threads") {
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t count : {0u, 1u, 7u, 8u, 1000u}) {
+      std::vector<std::size_t> expected;
+      for (std::size_t i = 0; i < count; ++i) expected.insert(expected.end(), i % 3, i);
+      const auto gathered = parallel_gather<std::size_t>(
+          count, 8, threads, [](std::size_t first, std::size_t last, std::vector<std::size_t>& list) {
+            for (std::size_t i = first; i < last; ++i) list.insert(list.end(), i % 3, i);
+          });
+      CHECK(gathered == expected);
+    }
+  }
+}

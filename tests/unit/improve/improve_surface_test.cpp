@@ -116,18 +116,10 @@ TEST_CASE("a tolerance makes smaller triangles, until they are as near to the su
 TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only") {
   const std::vector<Atom> atoms = molecule("2y29_wat");
   const MeshResult traced = mesh_surface(atoms, options(0.6, 1.7, 0.5));
-  SurfaceMesh surface;
-  for (std::size_t v = 0; v < traced.normals.size(); ++v) {
-    surface.points.push_back({to_units(traced.mesh.vertices[v]), traced.normals[v], 0});
-  }
-  surface.triangles = traced.mesh.triangles;
   const GaussianField field(atoms, 0.6, 1.7);
   SizeTargets targets;
-  const SurfaceMesh guarded = improve_surface(surface, field, targets, Guarding::kEverywhere, 1);
-  TriangleMesh mesh;
-  for (const SurfacePoint& p : guarded.points) mesh.vertices.push_back(to_angstrom(p.position));
-  mesh.triangles = guarded.triangles;
-  const MeshCheck check = check_mesh(mesh);
+  const SurfaceMesh guarded = improve_surface({traced.mesh, traced.normals}, field, targets, Guarding::kEverywhere, 1);
+  const MeshCheck check = check_mesh(guarded.mesh);
   CHECK(check.fit_for_solver());
   CHECK(check.chi == traced.report.check.chi);
   CHECK(check.mean_min_angle_deg > 50.0);

@@ -94,3 +94,15 @@ TEST_CASE("a block's triangles lie in its box, and what reaches into the box is 
   CHECK(inner > mesh.triangles.size() / 3);
   CHECK(inner < mesh.triangles.size());
 }
+
+TEST_CASE("the order of the work has every block once, and larger ones first") {
+  const MeshBlocks blocks(ring_mesh(), 2.5, {0.1, 0.2, 0.3}, 2);
+  std::vector<std::uint32_t> order = blocks.largest_first();
+  const auto triangles = [&](std::uint32_t b) { return blocks.extract(b).connectivity.triangles(); };
+  CHECK(std::is_sorted(order.begin(), order.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return triangles(a) > triangles(b); }));
+  CHECK(triangles(order.front()) > triangles(order.back()));
+  std::sort(order.begin(), order.end());
+  REQUIRE(order.size() == blocks.size());
+  for (std::uint32_t b = 0; b < order.size(); ++b) CHECK(order[b] == b);
+}
