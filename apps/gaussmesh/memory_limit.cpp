@@ -9,8 +9,10 @@
 #include <fcntl.h>
 #include <malloc.h>
 #include <signal.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,8 +20,8 @@
 #include <atomic>
 #include <bit>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
+#include <chrono>
 #include <cstring>
 #include <mutex>
 #include <string>
@@ -84,14 +86,23 @@ struct Spool {
   std::mutex mutex;
   std::atomic<std::size_t> units = 0;  ///< taken so far
   std::array<Shelf, kSizes> shelves;
-  std::mutex sweeping;
-  std::size_t sweep_at = 0;  ///< unit that is next to be unmapped
+  std::uint64_t page_size = 0;  ///< bytes
+  std::atomic_flag is_swept;    ///< by some thread, now
+  std::size_t sweep_at = 0;    ///< unit that is next to be unmapped
+  std::size_t sweep_left = 0;  ///< units from there on that belong to the same piece, or 0 where one begins
 };
 
 // Neither is ever destroyed: pieces are given back until the very end.
 constinit Spool spool;
-/// By unit: the number of the size of its pieces, or kSizes and the units of the large piece that begins there.
-constinit std::uint32_t unit_use[kUnits];
+/// By unit: the number of the size of its pieces, or kSizes and the units of the large piece that begins there, with
+/// kGivenBack once that is not used any more.
+constinit std::atomic<std::uint32_t> unit_use[kUnits];
+constexpr std::uint32_t kGivenBack = std::uint32_t{1} << 31;
+
+std::size_t units_of(std::uint32_t use) {
+  const std::uint32_t size = use & ~kGivenBack;
+  return size > kSizes ? size - kSizes : 1;
+}
 
 /// Bytes of the program that are in memory.
 std::uint64_t resident() {
@@ -99,22 +110,45 @@ std::uint64_t resident() {
   if (::pread(spool.statm, text, sizeof text - 1, 0) <= 0) return 0;
   char* second = text;
   std::strtoull(text, &second, 10);
-  return std::strtoull(second, nullptr, 10) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return std::strtoull(second, nullptr, 10) * spool.page_size;
 }
 
-/// Unmaps pages of the file if too many are resident, or will be once `soon` bytes more are. Nothing gets lost: what
-/// was written to a shared mapping is in the file.
+/// Whether this thread is at it: what interrupts it must not wait for it.
+constinit thread_local bool makes_room = false;
+
+/// Unmaps pages of the file if too many are resident, or will be once `soon` bytes more are, or waits while another
+/// thread does so: nobody touches pages faster than they are unmapped. Nothing gets lost: what was written to a shared
+/// mapping is in the file. Takes no locks and no memory, for signal handlers.
 void make_room(std::uint64_t soon) {
-  constexpr std::size_t kAtOnce = 4;  // units
+  constexpr std::size_t kAtOnce = 8;  // units
   soon = std::min(soon, spool.enough_resident / 2);
-  if (resident() + soon < spool.most_resident || !spool.sweeping.try_lock()) return;
-  const std::lock_guard lock(spool.sweeping, std::adopt_lock);
-  const std::size_t all = spool.units;
-  for (std::size_t seen = 0; seen < all && resident() + soon > spool.enough_resident; seen += kAtOnce) {
-    if (spool.sweep_at >= all) spool.sweep_at = 0;
-    ::madvise(spool.base + spool.sweep_at * kUnit, kAtOnce * kUnit, MADV_DONTNEED);
-    spool.sweep_at += kAtOnce;
+  if (makes_room || resident() + soon < spool.most_resident) return;
+  if (spool.is_swept.test_and_set()) {
+    while (spool.is_swept.test()) ::sched_yield();
+    return;
   }
+  makes_room = true;
+  const std::size_t all = spool.units;
+  for (std::size_t seen = 0; seen < all && resident() + soon > spool.enough_resident;) {
+    // What was given back is most of the file after a while, and takes no time.
+    while (spool.sweep_left == 0 && seen < all) {
+      if (spool.sweep_at >= all) spool.sweep_at = 0;
+      const std::uint32_t use = unit_use[spool.sweep_at];
+      if ((use & kGivenBack) == 0) {
+        spool.sweep_left = units_of(use);
+      } else {
+        spool.sweep_at += units_of(use);
+        seen += units_of(use);
+      }
+    }
+    const std::size_t count = std::min(spool.sweep_left, kAtOnce);
+    ::madvise(spool.base + spool.sweep_at * kUnit, count * kUnit, MADV_DONTNEED);
+    spool.sweep_at += count;
+    spool.sweep_left -= count;
+    seen += count;
+  }
+  makes_room = false;
+  spool.is_swept.clear();
 }
 
 /// New units, of which the first `bytes` are used.
@@ -131,8 +165,8 @@ char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
   } while (result != 0 && errno == EINTR);
   if (result != 0 && errno == EOPNOTSUPP) result = ::ftruncate(spool.file, offset + static_cast<off_t>(bytes));
   if (result != 0) throw NoRoomOnDisk();
-  spool.units = first + units;
   unit_use[first] = use;
+  spool.units = first + units;
   return spool.base + offset;
 }
 
@@ -160,11 +194,12 @@ bool is_in_spool(const void* piece) {
 
 void give_back_piece(void* piece) {
   const auto unit = static_cast<std::size_t>(static_cast<char*>(piece) - spool.base) / kUnit;
-  const std::size_t use = unit_use[unit];
+  const std::uint32_t use = unit_use[unit];
   if (use > kSizes) {
+    unit_use[unit] = use | kGivenBack;
     // Not every file system can make holes; then the room comes back at the end of the program.
-    if (::madvise(piece, (use - kSizes) * kUnit, MADV_REMOVE) != 0)
-      ::madvise(piece, (use - kSizes) * kUnit, MADV_DONTNEED);
+    const std::size_t bytes = units_of(use) * kUnit;
+    if (::madvise(piece, bytes, MADV_REMOVE) != 0) ::madvise(piece, bytes, MADV_DONTNEED);
     return;
   }
   Shelf& shelf = spool.shelves[use];
@@ -172,10 +207,17 @@ void give_back_piece(void* piece) {
   shelf.free = ::new (piece) FreePiece{shelf.free};
 }
 
-/// Does what is to be done about the limit twice in a millisecond.
-void keep_limit() {
+/// Looks at the limit twice in a millisecond, as long as there is a processor for it.
+void watch_limit() {
   constexpr auto kPause = std::chrono::microseconds(500);
   for (;; std::this_thread::sleep_for(kPause)) make_room(0);
+}
+
+/// So does whoever has had a processor for a while, and waits where there is no room.
+void look_at_limit(int) {
+  const int error = errno;
+  make_room(0);
+  errno = error;
 }
 
 [[noreturn]] void fail(const std::filesystem::path& folder) {
@@ -202,12 +244,20 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   spool.statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (spool.statm < 0) fail("/proc/self/statm");
   spool.base = static_cast<char*>(base);
-  // Until a busy system lets the sweeper run, some MB may be touched.
-  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{68} << 20;
+  spool.page_size = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  // Processor time is counted in ticks of the system's clock, of some milliseconds: pages that are in the system's cache
+  // can be mapped at 30 GB/s meanwhile.
+  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{144} << 20;
   spool.most_on_heap = static_cast<std::int64_t>(limit / 8);
-  spool.most_resident = limit - std::max(limit / 8, kTouchedMeanwhile);
+  spool.most_resident = limit - std::max(limit / 8, std::min(limit * 9 / 16, kTouchedMeanwhile));
   spool.enough_resident = spool.most_resident - limit / 8;
-  std::thread(keep_limit).detach();
+  struct sigaction action {};
+  action.sa_handler = look_at_limit;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGPROF, &action, nullptr);
+  const itimerval often{{0, 1000}, {0, 1000}};  // 1 ms of processor time, on all threads together
+  ::setitimer(ITIMER_PROF, &often, nullptr);
+  std::thread(watch_limit).detach();
   spool.is_on = true;
 }
 

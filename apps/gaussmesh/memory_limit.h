@@ -7,7 +7,7 @@
 
 namespace gaussmesh::app {
 
-/// What --max-memory takes at least (bytes): an eighth for the heap, and half for what is touched before
+/// What --max-memory takes at least (bytes): an eighth for the heap, and more than half for what is touched before
 /// the limit is looked at again.
 inline constexpr std::uint64_t kLeastMemory = std::uint64_t{128} << 20;
 
@@ -26,7 +26,8 @@ struct NoRoomOnDisk : std::bad_alloc {
 ///
 /// Results are the same; only time is lost. Whatever is resident counts: program, heap, stacks, and mapped pages of
 /// the file. Pages that are unmapped may still be in the system's cache, as those of any file, while nobody else
-/// needs the room.
+/// needs the room. A thread watches what is resident, and SIGPROF makes the others look at it too, and wait where there
+/// is no room: for some milliseconds it may be more than it should, which the limit has a margin for.
 ///
 /// Linux. To be called once, before other threads are started.
 /// @param limit  at least kLeastMemory
