@@ -58,8 +58,9 @@ void BrickWalker::walk_block(const FineIndex& origin, const std::array<int, 3>& 
       proof_atoms_.restrict_from(octant_atoms_, box_of(first, kBlockCells), field_.decay(), kProofTruncation);
     }
     octant_loaded_ = block_loaded = true;
-    const LocalModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
-    const KnownOfCell known{tables_.is_crossed(i, j, k), tables_.directions(i, j, k, 7)};
+    const LazyModel model(proof_atoms_, field_.decay(), box_of({i, j, k}, 1));
+    const KnownOfCell known{tables_.is_crossed(i, j, k), tables_.directions(i, j, k, 7),
+                            tables_.steepest_axis(i, j, k)};
     const CellCertificate certificate = prover_.certify(proof_atoms_, model, kProofDepth, known);
     if (certificate.kind == CellCertificate::Kind::kExcluded) continue;
     visit({{origin[0] + i * kFinePerCell, origin[1] + j * kFinePerCell, origin[2] + k * kFinePerCell},

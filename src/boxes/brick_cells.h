@@ -16,7 +16,7 @@ class BrickWalker {
   struct Cell {
     FineIndex lo;
     const NearAtoms& atoms;        ///< collected for a box around the cell, with kTruncation
-    const LocalModel& model;       ///< of the cell, with kProofTruncation
+    const LazyModel& model;        ///< of the cell, with kProofTruncation
     CellCertificate certificate;
     const BrickTables& tables;     ///< of the brick
     std::array<int, 3> in_brick;   ///< i, j, k: where it is in the brick

@@ -77,7 +77,8 @@ void take_logarithms(double* values, std::size_t n) {
 }
 
 /// For a row of cells along x, the largest psi at their corners, and a bound that psi is not below in the cells.
-/// What is_free() asks of one cell, face or edge: for all cells of a brick, one by one takes longer (2 % of a raw mesh).
+/// What is_free() asks of one cell, face or edge: for all cells of a brick, one by one takes longer (2 % of a raw
+/// mesh).
 /// @param psi   at the lowest corner of the first cell; neighbours are 1, kPlanes and kPlanes^2 further
 /// @param loss  d (3/4) a^2
 GAUSSMESH_SIMD_CLONES
@@ -127,6 +128,8 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
   }
   const double error = 2.0 * kSumError + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 +
                        1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
+  for (int k = 0; k < 3; ++k) origin_[k] = planes[k][1];
+  edge_ = edge;
   square_ = decay * edge * edge * (1.0 + 1e-9);
   inside_above_ = error;
   free_above_ = 4.0 * error;
@@ -203,6 +206,32 @@ unsigned BrickTables::directions(int i, int j, int k, unsigned extent) const {
     result |= unsigned{falls} << (2 * axis) | unsigned{grows} << (2 * axis + 1);
   }
   return result;
+}
+
+int BrickTables::steepest_axis(int i, int j, int k) const {
+  const double* p = at(i, j, k);
+  constexpr int x = kStride[0], y = kStride[1], z = kStride[2];
+  const double diagonals[4] = {p[x + y + z] - p[0], p[x + y] - p[z], p[x + z] - p[y], p[x] - p[y + z]};
+  const double slopes[3] = {std::abs(diagonals[0] + diagonals[1] + diagonals[2] + diagonals[3]),
+                            std::abs(diagonals[0] + diagonals[1] - diagonals[2] - diagonals[3]),
+                            std::abs(diagonals[0] - diagonals[1] + diagonals[2] - diagonals[3])};
+  return static_cast<int>(std::max_element(slopes, slopes + 3) - slopes);
+}
+
+double BrickTables::zero_on_edge(int i, int j, int k, int axis) const {
+  const double* p = at(i, j, k);
+  const int step = kStride[axis];
+  const double before = p[-step], lo = p[0], hi = p[step], after = p[2 * step];
+  if ((lo > 0.0) == (hi > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  // Newton's method from the chord, on the cubic through the four.
+  const double third = (after - before) / 6.0 + 0.5 * (lo - hi), second = 0.5 * (before + hi) - lo;
+  const double first = hi - lo - second - third;
+  double t = lo / (lo - hi);
+  for (int iteration = 0; iteration < 2; ++iteration) {
+    t -= (lo + t * (first + t * (second + t * third))) / (first + t * (2.0 * second + 3.0 * t * third));
+  }
+  const int at_axis[3] = {i, j, k};
+  return origin_[axis] + (at_axis[axis] + t) * edge_;
 }
 
 /// S / c at all crossings of planes. False where products would overflow: nothing is known of the cells then.

@@ -49,6 +49,13 @@ class BrickTables {
   /// 2 n is fall.
   unsigned directions(int i, int j, int k, unsigned extent) const;
 
+  /// The axis along which phi changes most from corner to corner of the cell.
+  int steepest_axis(int i, int j, int k) const;
+
+  /// Where psi is zero on the edge from the lowest corner of the cell along `axis` (A), by its values at four planes;
+  /// no bounds. NaN if its ends are on one side.
+  double zero_on_edge(int i, int j, int k, int axis) const;
+
   /// On which side the corner i, j, k is, each from 0 to kBrickCells.
   Side corner(int i, int j, int k) const {
     const double psi = *at(i, j, k);
@@ -68,6 +75,8 @@ class BrickTables {
   std::array<std::uint8_t, kBrickCells * kBrickCells * kBrickCells> cells_{};
   std::array<double, kRows * kPlanes> log_sums_{};  ///< S / c, then psi, at all crossings of planes
   double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner, errors and all
+  std::array<double, 3> origin_{};  ///< the brick's lowest corner (A)
+  double edge_ = 0.0;         ///< of the cells (A)
   double square_ = 0.0;       ///< d a^2, rounded up
   double free_above_ = 0.0;   ///< what bounds of psi between corners prove an inside, as inside_above_
   double grows_below_ = 0.0;  ///< what psi + d L^2 must be below for directions ...

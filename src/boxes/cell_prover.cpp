@@ -40,11 +40,21 @@ Box child_box(const Box& box, int child) {
   return result;
 }
 
-CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& model, int depth,
+CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& lazy_model, int depth,
                                     const KnownOfCell& known) {
   using Kind = CellCertificate::Kind;
   depth_ = depth;
   ++boxes_by_depth_[0];
+  // Of both directions, which means that there is no surface, either does.
+  const auto known_sign = [&](int axis) {
+    const unsigned both = known.directions >> (2 * axis) & 3u;
+    return both == 0 ? 0 : both == 1 ? -1 : 1;
+  };
+  if (known.steepest_axis >= 0) {
+    const int sign = known_sign(known.steepest_axis);
+    if (sign != 0) return {Kind::kMonotone, along_axis(known.steepest_axis, sign), axes_of(known.directions)};
+  }
+  const LocalModel& model = lazy_model.get();
   const LocalModel::View view = model.over_all();
   if (!known.is_crossed && is_excluded(view.value())) return {Kind::kExcluded, {}, 0};
 
@@ -53,8 +63,7 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LocalModel& mo
   std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(gradient[a]) > std::abs(gradient[b]); });
   CellCertificate whole;
   for (int axis : axes) {
-    const unsigned both = known.directions >> (2 * axis) & 3u;
-    const int sign = both != 0 ? (both == 1 ? -1 : 1) : proven_sign(view.slope(axis));
+    const int sign = known_sign(axis) != 0 ? known_sign(axis) : proven_sign(view.slope(axis));
     if (sign == 0) continue;
     if (whole.kind != Kind::kMonotone) whole = {Kind::kMonotone, along_axis(axis, sign), 0};
     whole.single_axes |= 1u << axis;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/direction.h"
-#include "field/local_model.h"
+#include "field/lazy_model.h"
 #include "field/near_atoms.h"
 
 namespace gaussmesh {
@@ -26,6 +26,7 @@ struct CellCertificate {
 struct KnownOfCell {
   bool is_crossed = false;  ///< the surface passes through it
   unsigned directions = 0;  ///< proven: bit 2 k + 1 is growth along axis k, bit 2 k fall
+  int steepest_axis = -1;   ///< along which phi changes most; -1: not known
 };
 
 /// Proves directions of cells, looking closer through sub-boxes where the cell as a whole does not show one.
@@ -33,9 +34,10 @@ class CellProver {
  public:
   explicit CellProver(double decay) : decay_(decay) {}
 
-  /// `model` is over the whole cell; `atoms` were collected for a box around it.
+  /// `model` is over the whole cell, and is not asked for where the steepest axis is among the directions known;
+  /// `atoms` were collected for a box around it.
   /// @param depth  how often the cell is halved before it counts as unproven
-  CellCertificate certify(const NearAtoms& atoms, const LocalModel& model, int depth, const KnownOfCell& known = {});
+  CellCertificate certify(const NearAtoms& atoms, const LazyModel& model, int depth, const KnownOfCell& known = {});
 
   /// Sub-boxes that have had models of their own so far, by how often the cell was halved for them.
   const std::vector<std::size_t>& boxes_by_depth() const { return boxes_by_depth_; }

@@ -56,9 +56,10 @@ class BrickBuilder {
       const unsigned edge = 1u << axis;
       if (found.tables.is_free(i, j, k, edge)) continue;
       const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
-      const bool is_monotone = (found.certificate.single_axes & edge) != 0 || found.tables.directions(i, j, k, edge) != 0;
+      const bool is_monotone =
+          (found.certificate.single_axes & edge) != 0 || found.tables.directions(i, j, k, edge) != 0;
       const Side upper = found.tables.corner(i + (axis == 0), j + (axis == 1), k + (axis == 2));
-      const EdgeEnds ends{found.tables.corner(i, j, k), upper, is_monotone};
+      const EdgeEnds ends{found.tables.corner(i, j, k), upper, is_monotone, found.tables.zero_on_edge(i, j, k, axis)};
       if (finder_.is_free(found.model, axis, lo, hi, ends)) continue;
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
@@ -80,7 +81,7 @@ class BrickBuilder {
     if (const FaceCertificate by_corners = certificate_in_face(single_axes, axis)) return by_corners;
     Box face = found.model.box();
     face.hi[axis] = face.lo[axis];
-    return certify_face(found.model, axis, face);
+    return certify_face(found.model.get(), axis, face);
   }
 
   const Lattice& lattice_;

@@ -50,8 +50,8 @@ std::array<float, 3> outward_normal(const Vec3& g) {
 namespace {
 
 /// The side of a point: proven, or unknown where |phi / c - 1| is below the rounding error.
-Side proven_side(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
-  const Range range = model.over({point, point}).value();
+Side proven_side(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point) {
+  const Range range = model.get().over({point, point}).value();
   if (range.lo > 0.0) return Side::kInside;
   if (range.hi < 0.0) return Side::kOutside;
   Side side = side_of(evaluate(atoms, field.decay(), point), atoms);
@@ -65,7 +65,7 @@ Side proven_side(const GaussianField& field, const NearAtoms& atoms, const Local
 
 }  // namespace
 
-bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point) {
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point) {
   const Side side = proven_side(field, atoms, model, point);
   if (side == Side::kUnknown) throw LatticeDegenerate(point);
   return side == Side::kInside;
@@ -112,14 +112,14 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
   throw InternalError("a bracketed root was not found in 200 steps");
 }
 
-bool EdgeRootFinder::is_free(const LocalModel& model, int axis, const CoordPoint& lo, Coord hi,
+bool EdgeRootFinder::is_free(const LazyModel& model, int axis, const CoordPoint& lo, Coord hi,
                              const EdgeEnds& ends) const {
   const bool sides_known = ends.lo != Side::kUnknown && ends.hi != Side::kUnknown;
   if (sides_known && ends.lo != ends.hi) return false;
   if (sides_known && ends.is_monotone) return true;
   Box edge{to_angstrom(lo), to_angstrom(lo)};
   edge.hi[axis] = to_angstrom(hi);
-  const LocalModel::View view = model.over(edge);
+  const LocalModel::View view = model.get().over(edge);
   const Range value = view.value();
   if (value.hi < 0.0 || value.lo > 0.0) return true;
   if (!sides_known) return false;
@@ -133,7 +133,7 @@ Vec3 EdgeRootFinder::at(double x) const {
   return p;
 }
 
-std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const LocalModel& model, int axis,
+std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const LazyModel& model, int axis,
                                                const CoordPoint& lo, Coord hi, const EdgeEnds& ends) {
   atoms_ = &atoms;
   axis_ = axis;
@@ -150,7 +150,7 @@ std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const Loc
   if (!ends.is_monotone) {
     isolate(model, whole);
   } else if (whole.inside_a != whole.inside_b) {
-    refine(model, whole);
+    refine(model, whole, ends.guess);
   }
   for (std::size_t i = 1; i < roots_.size(); ++i) {
     if (roots_[i - 1].point.position[axis_] >= roots_[i].point.position[axis_]) {
@@ -160,9 +160,9 @@ std::span<const EdgeRoot> EdgeRootFinder::find(const NearAtoms& atoms, const Loc
   return roots_;
 }
 
-void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
+void EdgeRootFinder::isolate(const LazyModel& model, const Segment& s) {
   const Box part{at(s.a), at(s.b)};
-  const LocalModel::View view = model.over(part);
+  const LocalModel::View view = model.get().over(part);
   const bool is_crossed = s.inside_a != s.inside_b;
   if (!is_crossed) {
     const Range value = view.value();
@@ -170,20 +170,20 @@ void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
   }
   const Range slope = view.slope(axis_);
   if (slope.lo > 0.0 || slope.hi < 0.0) {
-    if (is_crossed) refine(model, s);
+    if (is_crossed) refine(model, s, EdgeEnds().guess);
     return;
   }
   if (s.b - s.a < kClosestRoots) throw LatticeDegenerate(part.lo);
   if (s.b - s.a < kNeedsAllAtoms && atoms_ != &all_) {
     field_.collect_near(part, all_, kNoTruncation);
     const NearAtoms* const some = std::exchange(atoms_, &all_);
-    isolate(LocalModel(all_, field_.decay(), part), s);
+    isolate({all_, field_.decay(), part}, s);
     atoms_ = some;
     return;
   }
   if (model.box().lo != part.lo || model.box().hi != part.hi) {
     // A model of the edge alone is closer than one of the cell.
-    isolate(LocalModel(*atoms_, field_.decay(), part), s);
+    isolate({*atoms_, field_.decay(), part}, s);
     return;
   }
   const double middle = 0.5 * (s.a + s.b);
@@ -192,12 +192,14 @@ void EdgeRootFinder::isolate(const LocalModel& model, const Segment& s) {
   isolate(model, {middle, s.b, inside_middle, s.inside_b});
 }
 
-void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
-  // The model's own root is a guess that mostly needs one sum over the atoms.
-  const double middle = 0.5 * (s.a + s.b);
-  const LocalModel::View view = model.over({at(middle), at(middle)});
-  const double guess = cubic_zero(middle, view.middle_value(), view.middle_gradient()[axis_],
-                                  view.middle_curvature(axis_), view.middle_third(axis_));
+void EdgeRootFinder::refine(const LazyModel& model, const Segment& s, double guess) {
+  if (std::isnan(guess)) {
+    // The model's own root is a guess that mostly needs one sum over the atoms.
+    const double middle = 0.5 * (s.a + s.b);
+    const LocalModel::View view = model.get().over({at(middle), at(middle)});
+    guess = cubic_zero(middle, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_),
+                       view.middle_third(axis_));
+  }
   const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;
@@ -207,7 +209,7 @@ void EdgeRootFinder::refine(const LocalModel& model, const Segment& s) {
   roots_.push_back(result);
 }
 
-Coord EdgeRootFinder::snap(const LocalModel& model, const Segment& s, const LineRoot& root) const {
+Coord EdgeRootFinder::snap(const LazyModel& model, const Segment& s, const LineRoot& root) const {
   // The atoms left out move a root by up to their share of phi over its slope.
   const double error = kRootTolerance + 2.0 * (atoms_->tail + kValueError) / std::abs(root.gradient[axis_]);
   const double at_units = root.position * kUnitsPerAngstrom;

@@ -3,11 +3,12 @@
 // Which edges there are is the pipeline's business; joining roots across faces is trace/.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "field/gaussian_field.h"
-#include "field/local_model.h"
+#include "field/lazy_model.h"
 #include "field/point_value.h"
 
 namespace gaussmesh {
@@ -36,6 +37,8 @@ struct EdgeEnds {
   Side lo = Side::kUnknown;  ///< of its lower end
   Side hi = Side::kUnknown;
   bool is_monotone = false;  ///< phi passes c in one direction only along the edge
+  /// Where a root of a monotone edge may be (A); NaN: the model tells.
+  double guess = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Finds every root of phi = c on lattice edges.
@@ -52,11 +55,11 @@ class EdgeRootFinder {
   /// that side of each plane of the finest lattice where the exact root is. `model` is over a box that contains the
   /// edge, and `atoms` were collected for one.
   /// @throws LatticeDegenerate where two roots, or a root and a lattice plane, cannot be told apart
-  std::span<const EdgeRoot> find(const NearAtoms& atoms, const LocalModel& model, int axis, const CoordPoint& lo,
+  std::span<const EdgeRoot> find(const NearAtoms& atoms, const LazyModel& model, int axis, const CoordPoint& lo,
                                  Coord hi, const EdgeEnds& ends = {});
 
   /// Whether bounds show at once that the edge has no root. `atoms` are not needed for that.
-  bool is_free(const LocalModel& model, int axis, const CoordPoint& lo, Coord hi, const EdgeEnds& ends) const;
+  bool is_free(const LazyModel& model, int axis, const CoordPoint& lo, Coord hi, const EdgeEnds& ends) const;
 
  private:
   struct Segment {
@@ -64,11 +67,12 @@ class EdgeRootFinder {
     bool inside_a, inside_b;
   };
 
-  void isolate(const LocalModel& model, const Segment& segment);
-  void refine(const LocalModel& model, const Segment& segment);
+  void isolate(const LazyModel& model, const Segment& segment);
+  /// @param guess  as in EdgeEnds
+  void refine(const LazyModel& model, const Segment& segment, double guess);
   /// The coordinate of a root, rounded, on the side of every lattice plane that the exact root is on: signs on the
   /// planes tell where distances do not.
-  Coord snap(const LocalModel& model, const Segment& segment, const LineRoot& root) const;
+  Coord snap(const LazyModel& model, const Segment& segment, const LineRoot& root) const;
   Vec3 at(double x) const;
 
   const GaussianField& field_;
@@ -84,7 +88,7 @@ class EdgeRootFinder {
 
 /// Whether phi >= c at a point, proven: by the model, by the sum over `atoms`, or by the sum over all atoms.
 /// @throws LatticeDegenerate where |phi / c - 1| is below the rounding error, some 1e-13
-bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LocalModel& model, const Vec3& point);
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point);
 
 /// The root of phi = c on the line through `start` along `axis` between coordinates a and b, where phi - c has
 /// opposite signs; good to 1e-10 A. @param inside_a whether phi > c at a

@@ -124,6 +124,52 @@ TEST_CASE("no cell, face or edge that the surface passes through is dropped, and
   CHECK(free_parts > uncrossed_parts / 10);
 }
 
+TEST_CASE("corners tell nearly where an edge meets the surface, and which axis is the steepest") {
+  Random random(48);
+  const std::vector<Atom> atoms = random_cloud(random, {30, 4.0, 1.0, 2.0, 0.0});
+  const GaussianField field(atoms, 0.6, 1.7);
+  const ExactField exact(atoms, 0.6, 1.7);
+  const double cell = 0.5;
+  const auto planes = planes_of({1.1, -2.3, -1.7}, cell);
+  NearAtoms near;
+  field.collect_near(box_of(planes), near);
+  BrickTables tables;
+  tables.build(near, 0.6, planes);
+  std::size_t roots = 0, good = 0, steep = 0;
+  for (int n = 0; n < kBrickCells * kBrickCells * kBrickCells; ++n) {
+    const int i = n % kBrickCells, j = n / kBrickCells % kBrickCells, k = n / kBrickCells / kBrickCells;
+    CAPTURE(i, j, k);
+    const Box box = cell_of(planes, i, j, k);
+    Vec3 change{};  // from face to face, over all corners
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p = corner_of(planes, i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+      for (int axis = 0; axis < 3; ++axis) change[axis] += (corner >> axis & 1 ? 1 : -1) * double(exact.psi(p));
+    }
+    double largest = 0.0;
+    for (const double by : change) largest = std::max(largest, std::abs(by));
+    CHECK(std::abs(change[tables.steepest_axis(i, j, k)]) > 0.999 * largest);
+    steep += largest > 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double guess = tables.zero_on_edge(i, j, k, axis);
+      Vec3 p = box.lo, end = box.lo;
+      end[axis] = box.hi[axis];
+      const bool is_crossed = (exact.psi(p) >= 0.0L) != (exact.psi(end) >= 0.0L);
+      CHECK(std::isnan(guess) == !is_crossed);
+      if (!is_crossed) continue;
+      ++roots;
+      double lo = box.lo[axis], hi = box.hi[axis];
+      for (int halving = 0; halving < 40; ++halving) {
+        p[axis] = 0.5 * (lo + hi);
+        ((exact.psi(p) >= 0.0L) == (exact.psi(end) >= 0.0L) ? hi : lo) = p[axis];
+      }
+      good += std::abs(guess - lo) < 0.02 * cell;
+    }
+  }
+  CHECK(steep > 100);
+  CHECK(roots > 100);
+  CHECK(double(good) > 0.9 * double(roots));
+}
+
 TEST_CASE("a brick near atoms of any number: blocks of atoms add up") {
   Random random(47);
   const std::vector<Atom> atoms = random_cloud(random, {1500, 6.0, 0.2, 0.6, 0.0});

@@ -154,6 +154,7 @@ TEST_CASE("walking bricks finds every cell that the surface passes through, and 
         cells.push_back(cell.lo);
         CHECK(cell.certificate.kind != Kind::kExcluded);
         CHECK(cell.model.box().lo == cell_box(lattice, {cell.lo, 0}).lo);
+        CHECK(cell.model.get().box().hi == cell_box(lattice, {cell.lo, 0}).hi);
       });
     }
     std::sort(cells.begin(), cells.end());
