@@ -96,8 +96,11 @@ struct Spool {
 constinit Spool spool;
 /// By unit: the number of the size of its pieces, or kSizes and the units of the large piece that begins there, with
 /// kGivenBack once that is not used any more.
-constinit std::atomic<std::uint32_t> unit_use[kUnits];
+constinit std::uint32_t unit_use[kUnits];
 constexpr std::uint32_t kGivenBack = std::uint32_t{1} << 31;
+
+/// What is given back, or taken, by one thread is swept by another.
+std::atomic_ref<std::uint32_t> use_of(std::size_t unit) { return std::atomic_ref(unit_use[unit]); }
 
 std::size_t units_of(std::uint32_t use) {
   const std::uint32_t size = use & ~kGivenBack;
@@ -133,7 +136,7 @@ void make_room(std::uint64_t soon) {
     // What was given back is most of the file after a while, and takes no time.
     while (spool.sweep_left == 0 && seen < all) {
       if (spool.sweep_at >= all) spool.sweep_at = 0;
-      const std::uint32_t use = unit_use[spool.sweep_at];
+      const std::uint32_t use = use_of(spool.sweep_at);
       if ((use & kGivenBack) == 0) {
         spool.sweep_left = units_of(use);
       } else {
@@ -165,7 +168,7 @@ char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
   } while (result != 0 && errno == EINTR);
   if (result != 0 && errno == EOPNOTSUPP) result = ::ftruncate(spool.file, offset + static_cast<off_t>(bytes));
   if (result != 0) throw NoRoomOnDisk();
-  unit_use[first] = use;
+  use_of(first) = use;
   spool.units = first + units;
   return spool.base + offset;
 }
@@ -194,9 +197,9 @@ bool is_in_spool(const void* piece) {
 
 void give_back_piece(void* piece) {
   const auto unit = static_cast<std::size_t>(static_cast<char*>(piece) - spool.base) / kUnit;
-  const std::uint32_t use = unit_use[unit];
+  const std::uint32_t use = use_of(unit);
   if (use > kSizes) {
-    unit_use[unit] = use | kGivenBack;
+    use_of(unit) = use | kGivenBack;
     // Not every file system can make holes; then the room comes back at the end of the program.
     const std::size_t bytes = units_of(use) * kUnit;
     if (::madvise(piece, bytes, MADV_REMOVE) != 0) ::madvise(piece, bytes, MADV_DONTNEED);
