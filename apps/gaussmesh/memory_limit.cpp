@@ -116,8 +116,8 @@ std::uint64_t resident() {
   return std::strtoull(second, nullptr, 10) * spool.page_size;
 }
 
-/// Whether this thread is at it: what interrupts it must not wait for it.
-constinit thread_local bool makes_room = false;
+/// Whether this thread is in make_room(): a signal that interrupts it there must not wait for it.
+constinit thread_local std::atomic<bool> makes_room = false;
 
 /// Unmaps pages of the file if too many are resident, or will be once `soon` bytes more are, or waits while another
 /// thread does so: nobody touches pages faster than they are unmapped. Nothing gets lost: what was written to a shared
@@ -126,11 +126,12 @@ void make_room(std::uint64_t soon) {
   constexpr std::size_t kAtOnce = 8;  // units
   soon = std::min(soon, spool.enough_resident / 2);
   if (makes_room || resident() + soon < spool.most_resident) return;
+  makes_room = true;  // before the flag is this thread's, and until it is not any more
   if (spool.is_swept.test_and_set()) {
     while (spool.is_swept.test()) ::sched_yield();
+    makes_room = false;
     return;
   }
-  makes_room = true;
   const std::size_t all = spool.units;
   for (std::size_t seen = 0; seen < all && resident() + soon > spool.enough_resident;) {
     // What was given back is most of the file after a while, and takes no time.
@@ -150,8 +151,8 @@ void make_room(std::uint64_t soon) {
     spool.sweep_left -= count;
     seen += count;
   }
-  makes_room = false;
   spool.is_swept.clear();
+  makes_room = false;
 }
 
 /// New units, of which the first `bytes` are used.
