@@ -24,6 +24,12 @@ class KeyIndex {
     return {slot, true};
   }
 
+  /// Forgets the keys, and keeps the room that they had.
+  void clear() {
+    keys_.clear();
+    slots_.clear();
+  }
+
   std::optional<std::uint32_t> find(const Key& key) const {
     if (keys_.empty()) return std::nullopt;
     const std::uint32_t number = slots_[slot_of(key)];
@@ -31,11 +37,6 @@ class KeyIndex {
   }
 
   bool contains(const Key& key) const { return find(key).has_value(); }
-  /// Forgets the keys, and keeps the room that they had.
-  void clear() {
-    keys_.clear();
-    slots_.clear();
-  }
   std::size_t size() const { return keys_.size(); }
   const Key& operator[](std::size_t number) const { return keys_[number]; }
 

@@ -56,15 +56,17 @@ Box box_of(const WholeMesh& mesh, const Triangle& v) {
 
 /// The largest extent of any triangle along any axis.
 double longest_extent(const WholeMesh& mesh, int threads) {
-  std::vector<double> longest(mesh.triangles.size() / kMembersAtOnce + 1, 0.0);
-  parallel_for_chunks(mesh.triangles.size(), kMembersAtOnce, threads,
-                      [&](std::size_t chunk, std::size_t first, std::size_t last) {
-                        for (std::size_t t = first; t < last; ++t) {
-                          const Box box = box_of(mesh, mesh.triangles[t]);
-                          for (int k = 0; k < 3; ++k) longest[chunk] = std::max(longest[chunk], box.hi[k] - box.lo[k]);
-                        }
-                      });
-  return *std::max_element(longest.begin(), longest.end());
+  const auto longest = parallel_gather<double>(
+      mesh.triangles.size(), kMembersAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<double>& list) {
+        double most = 0.0;
+        for (std::size_t t = first; t < last; ++t) {
+          const Box box = box_of(mesh, mesh.triangles[t]);
+          for (int k = 0; k < 3; ++k) most = std::max(most, box.hi[k] - box.lo[k]);
+        }
+        list.push_back(most);
+      });
+  return longest.empty() ? 0.0 : *std::max_element(longest.begin(), longest.end());
 }
 
 }  // namespace

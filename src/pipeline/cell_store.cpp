@@ -60,7 +60,6 @@ class BrickBuilder {
           (found.certificate.single_axes & edge) != 0 || found.tables.directions(i, j, k, edge) != 0;
       const Side upper = found.tables.corner(i + (axis == 0), j + (axis == 1), k + (axis == 2));
       const EdgeEnds ends{found.tables.corner(i, j, k), upper, is_monotone, found.tables.zero_on_edge(i, j, k, axis)};
-      if (finder_.is_free(found.model, axis, lo, hi, ends)) continue;
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
       cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());

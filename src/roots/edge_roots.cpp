@@ -170,7 +170,7 @@ void EdgeRootFinder::isolate(const LazyModel& model, const Segment& s) {
   }
   const Range slope = view.slope(axis_);
   if (slope.lo > 0.0 || slope.hi < 0.0) {
-    if (is_crossed) refine(model, s, EdgeEnds().guess);
+    if (is_crossed) refine(model, s, kNoGuess);
     return;
   }
   if (s.b - s.a < kClosestRoots) throw LatticeDegenerate(part.lo);

@@ -32,13 +32,15 @@ struct LineRoot {
   Vec3 gradient{};
 };
 
+/// Where nothing tells where a root may be.
+inline constexpr double kNoGuess = std::numeric_limits<double>::quiet_NaN();
+
 /// What is known of an edge beforehand.
 struct EdgeEnds {
   Side lo = Side::kUnknown;  ///< of its lower end
   Side hi = Side::kUnknown;
   bool is_monotone = false;  ///< phi passes c in one direction only along the edge
-  /// Where a root of a monotone edge may be (A); NaN: the model tells.
-  double guess = std::numeric_limits<double>::quiet_NaN();
+  double guess = kNoGuess;   ///< where the root of a monotone edge may be (A); where there is none, the model tells
 };
 
 /// Finds every root of phi = c on lattice edges.
@@ -58,15 +60,14 @@ class EdgeRootFinder {
   std::span<const EdgeRoot> find(const NearAtoms& atoms, const LazyModel& model, int axis, const CoordPoint& lo,
                                  Coord hi, const EdgeEnds& ends = {});
 
-  /// Whether bounds show at once that the edge has no root. `atoms` are not needed for that.
-  bool is_free(const LazyModel& model, int axis, const CoordPoint& lo, Coord hi, const EdgeEnds& ends) const;
-
  private:
   struct Segment {
     double a, b;
     bool inside_a, inside_b;
   };
 
+  /// Whether bounds show at once that the edge has no root.
+  bool is_free(const LazyModel& model, int axis, const CoordPoint& lo, Coord hi, const EdgeEnds& ends) const;
   void isolate(const LazyModel& model, const Segment& segment);
   /// @param guess  as in EdgeEnds
   void refine(const LazyModel& model, const Segment& segment, double guess);
