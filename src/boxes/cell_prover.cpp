@@ -9,27 +9,19 @@
 namespace gaussmesh {
 namespace {
 
-/// Bits of CellProver::Part where there is no surface.
-constexpr unsigned kAllDirections = 0x3F;
-
 int proven_sign(const Range& slope) { return slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0; }
 
 bool is_excluded(const Range& value) { return value.hi < 0.0 || value.lo > 0.0; }
 
-/// Whether there is no surface in the box of the view, or phi changes along the direction as it says wherever it is.
-bool proves(const LocalModel::View& view, const Direction& direction) {
-  return is_excluded(view.value()) || proven_sign(view.slope(direction)) == direction.sign;
-}
-
 /// Slanted directions that are tried for a cell.
 constexpr int kMostDirections = 8;
 
-/// Not a proof, only a reason to stop looking for one: by the model, the surface passes through the inner half.
-bool surface_is_surely_near(const LocalModel::View& view, const Box& box) {
-  const Vec3 g = view.middle_gradient();
-  double reach = 0.0;
-  for (int k = 0; k < 3; ++k) reach += 0.25 * std::abs(g[k]) * (box.hi[k] - box.lo[k]);
-  return std::abs(view.middle_value()) < 0.5 * reach;
+using Eighths = std::array<Box, 8>;
+
+Eighths eighths_of(const Box& box) {
+  Eighths eighths;
+  for (int child = 0; child < 8; ++child) eighths[child] = child_box(box, child);
+  return eighths;
 }
 
 }  // namespace
@@ -73,11 +65,12 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
 
   // What is known of each eighth of the cell is found once for all directions: by the cell's own model, which takes
   // no sums over atoms, and where that leaves all directions open in some eighth, by a model of each.
+  const Eighths eighths = eighths_of(model.box());
+  const PartProofs proofs = model.prove(eighths);
   Part parts[8];
   unsigned common = kAllDirections;
   for (int child = 0; child < 8; ++child) {
-    const Box box = child_box(model.box(), child);
-    parts[child] = look_at(model.over(box), box);
+    parts[child] = part_of(proofs.directions[child], proofs.is_surely_crossed[child]);
     common &= parts[child].proven;
   }
   if (common == kAllDirections) return {Kind::kExcluded, {}, 0};
@@ -97,8 +90,9 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
     Part& part = parts[child];
     if (part.proven != kAllDirections) {
       count_box(depth_);
-      models[child] = LocalModel(cell_atoms_, decay_, child_box(model.box(), child));
-      const Part closer = look_at(models[child].over_all(), models[child].box());
+      models[child] = LocalModel(cell_atoms_, decay_, eighths[child]);
+      const LocalModel::View view_of_child = models[child].over_all();
+      const Part closer = part_of(view_of_child.directions(), view_of_child.is_surely_crossed());
       part = {part.proven | closer.proven, part.refuted | closer.refuted};
     }
     for (int direction = 0; direction < 6; ++direction) {
@@ -143,7 +137,7 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
       if (parts[child].proven == kAllDirections) return true;
       const LocalModel::View whole_eighth = models[child].over_all();
       refuting_gradient_ = whole_eighth.middle_gradient();  // unless parts of it tell better
-      return proves(whole_eighth, slanted);
+      return whole_eighth.proves(slanted);
     };
     if (is_proven(slanted, holds_in)) return {Kind::kMonotone, slanted, 0};
     cone.add(refuting_gradient_);
@@ -151,31 +145,26 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
   return {Kind::kUncertified, {}, 0};
 }
 
-CellProver::Part CellProver::look_at(const LocalModel::View& view, const Box& box) {
-  if (is_excluded(view.value())) return {kAllDirections, 0};
-  Part part;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (const int sign = proven_sign(view.slope(axis))) part.proven |= 1u << (2 * axis + (sign > 0));
-  }
-  if (part.proven != 0 && surface_is_surely_near(view, box)) {
-    for (int direction = 0; direction < 6; ++direction) {
-      if (part.proven >> (direction ^ 1) & 1) part.refuted |= 1u << direction;
-    }
+CellProver::Part CellProver::part_of(unsigned directions, bool is_surely_crossed) {
+  Part part{directions, 0};
+  if (directions == kAllDirections || !is_surely_crossed) return part;
+  for (int direction = 0; direction < 6; ++direction) {
+    if (directions >> (direction ^ 1) & 1) part.refuted |= 1u << direction;
   }
   return part;
 }
 
 bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction,
                              int depth) {
+  const Eighths eighths = eighths_of(model.box());
+  const unsigned proven = model.prove_along(eighths, direction);
   for (int child = 0; child < 8; ++child) {
-    const Box box = child_box(model.box(), child);
-    if (proves(model.over(box), direction)) continue;
+    if (proven >> child & 1) continue;
     count_box(depth);
-    const LocalModel closer(atoms, decay_, box);
+    const LocalModel closer(atoms, decay_, eighths[child]);
     const LocalModel::View view = closer.over_all();
-    if (proves(view, direction)) continue;
-    const bool is_refuted = proven_sign(view.slope(direction)) == -direction.sign &&
-                            surface_is_surely_near(view, box);
+    if (view.proves(direction)) continue;
+    const bool is_refuted = proven_sign(view.slope(direction)) == -direction.sign && view.is_surely_crossed();
     if (depth <= 1 || is_refuted) {
       refuting_gradient_ = view.middle_gradient();
       return false;

@@ -48,7 +48,7 @@ class CellProver {
     unsigned proven = 0;   ///< all bits where there is no surface
     unsigned refuted = 0;  ///< the surface is surely here, and phi passes c the other way
   };
-  static Part look_at(const LocalModel::View& view, const Box& box);
+  static Part part_of(unsigned directions, bool is_surely_crossed);
 
   /// Whether phi passes c as the direction says wherever it does in the box of the model: proven through its parts, or
   /// not.

@@ -37,7 +37,11 @@ struct Direction {
   }
 };
 
-/// Bit k for axis k, from bits of directions along axes: 2 k + 1 is growth along axis k, 2 k is fall.
+/// Bits of directions along axes: 2 k + 1 is growth along axis k, 2 k is fall. All of them hold where there is no
+/// surface.
+inline constexpr unsigned kAllDirections = 0x3F;
+
+/// Bit k for axis k, from bits of directions along axes.
 inline unsigned axes_of(unsigned directions) {
   const unsigned either = directions | directions >> 1;
   return (either & 1u) | (either >> 1 & 2u) | (either >> 2 & 4u);

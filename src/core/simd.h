@@ -10,3 +10,10 @@
 #else
 #define GAUSSMESH_SIMD_CLONES
 #endif
+
+// What such a loop calls must become part of it.
+#if defined(__GNUC__)
+#define GAUSSMESH_SIMD_INLINE inline __attribute__((always_inline))
+#else
+#define GAUSSMESH_SIMD_INLINE inline
+#endif

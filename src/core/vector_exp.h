@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/quad.h"
+
 namespace gaussmesh {
 
 /// Relative error of vector_exp(), with room to spare: argument reduction leaves |r| <= ln(2)/2 to within 2 ulp, the
@@ -42,18 +44,19 @@ inline double vector_exp(double x) {
 /// Error of vector_log(): the terms left out are below 2e-11, and rounding of n log(2) is below 1e-13.
 inline constexpr double kVectorLogError = 1e-10;
 
-/// log(x) of a positive normal number: with x = 2^n m, m within sqrt(2) of 1, and
+/// log(x) of a positive normal number, or of four: with x = 2^n m, m within sqrt(2) of 1, and
 /// s = (m - 1) / (m + 1), log m = 2 (s + s^3/3 + ... + s^11/11 + ...). Branch-free.
-inline double vector_log(double x) {
+template <typename Real>
+GAUSSMESH_SIMD_INLINE Real vector_log(const Real& x) {
   constexpr double kLn2 = 0.6931471805599453;
   constexpr std::uint64_t kHalfRoot = 0x3FE6A09E667F3BCDu;  // sqrt(1/2): it and what follows up to sqrt(2) get n = 0
   constexpr std::uint64_t kMantissa = 0x000FFFFFFFFFFFFFu;
-  const std::uint64_t shifted = std::bit_cast<std::uint64_t>(x) - kHalfRoot;
-  const auto n = static_cast<double>(static_cast<std::int64_t>(shifted) >> 52);
-  const double m = std::bit_cast<double>((shifted & kMantissa) + kHalfRoot);
-  const double s = (m - 1.0) / (m + 1.0), s2 = s * s;
-  double p = 1.0 / 11.0;
-  p = p * s2 + 1.0 / 9.0;
+  constexpr std::uint64_t kBias = 1024, kWhole = 0x4330000000000000u;  // 2^52: whole numbers stand in its low bits
+  const auto shifted = words_of(x) - kHalfRoot;
+  const Real n = from_words(((shifted + (kBias << 52)) >> 52) + kWhole) - (0x1p52 + static_cast<double>(kBias));
+  const Real m = from_words((shifted & kMantissa) + kHalfRoot);
+  const Real s = (m - 1.0) / (m + 1.0), s2 = s * s;
+  Real p = s2 * (1.0 / 11.0) + 1.0 / 9.0;
   p = p * s2 + 1.0 / 7.0;
   p = p * s2 + 1.0 / 5.0;
   p = p * s2 + 1.0 / 3.0;

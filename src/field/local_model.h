@@ -1,7 +1,12 @@
 // Bounds of the field over a box and its parts: the proof's one source of truth.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <span>
+
 #include "core/direction.h"
+#include "core/quad.h"
 #include "field/near_atoms.h"
 
 namespace gaussmesh {
@@ -12,7 +17,7 @@ struct Range {
   double hi = 0.0;
 };
 
-/// The field around the middle m of a box, with a proven remainder.
+/// The numbers of a local model: the field around the middle m of a box, with a proven remainder.
 ///
 /// With a_i the weight of atom i at m, u_i = m - x_i, v = E[u] the mean under the weights and y_i = -2 d (u_i - v),
 ///
@@ -23,6 +28,44 @@ struct Range {
 /// its derivative along axis k at most E[|y_k| (exp(z) - 1 - z - z^2/2)]; over a part of the box that lies within
 /// lambda times the box around m, lambda^4 and lambda^3 times that. Exponents are relative to the mean, so that a
 /// radius of 1000 A makes no larger numbers than one of 1 A. Rounding and truncation are in the ranges.
+struct LocalModelTerms {
+  double decay = 0.0;
+  Vec3 middle{};             ///< m
+  Vec3 half{};               ///< half widths of the box (A)
+  bool empty = true;         ///< no atom counts: only the tail is there
+  bool usable = false;       ///< false: the moments say nothing, the box is too large for the atoms
+  double psi = 0.0;          ///< log(phi / c) at the middle
+  Vec3 mean_offset{};        ///< v (A)
+  double second[6]{};        ///< E[y y]: xx yy zz xy xz yz (1/A^2)
+  double third[10]{};        ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
+  double remainder = 0.0;    ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
+  Vec3 remainder_slope{};    ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
+  double growth = 1.0;       ///< E[exp(z)] >= g anywhere in the box
+  double log_growth = 0.0;
+  double slope_size = 0.0;   ///< no |y| is larger (1/A)
+  double relative_error = 0.0;
+  double tail = 0.0;
+  double tail_slope = 0.0;
+  Vec3 atoms_lo{}, atoms_hi{};
+};
+
+/// Half the width of an interval, rounded up to cover it from its rounded middle. Flat is flat: no slack is needed.
+template <typename Real>
+GAUSSMESH_SIMD_INLINE Real half_width(const Real& lo, const Real& hi, const Real& middle) {
+  return select(lo < hi, 0.5 * (hi - lo) * (1.0 + 1e-12) + 4e-16 * size_of(middle), Real{});
+}
+
+/// What parts of a box are found to be, by number of the part.
+struct PartProofs {
+  static constexpr int kMost = 8;
+  /// Along which axes phi passes c in one sense only wherever it does: bit 2 k + 1 is growth along axis k, bit 2 k is
+  /// fall; kAllDirections where there is no surface.
+  std::array<unsigned, kMost> directions{};
+  /// By the model, the surface passes through the inner half: no proof, only a reason to stop looking for one.
+  std::array<bool, kMost> is_surely_crossed{};
+};
+
+/// The model of a box; see above.
 class LocalModel {
  public:
   LocalModel() = default;
@@ -35,30 +78,30 @@ class LocalModel {
   View over(const Box& part) const;
   View over_all() const;
 
+  /// Asks about up to PartProofs::kMost parts at once, side by side in SIMD lanes: for what two Views cost.
+  PartProofs prove(std::span<const Box> parts) const;
+
+  /// Of such parts, bit i of part i: there is no surface, or phi passes c as the direction says wherever it does.
+  unsigned prove_along(std::span<const Box> parts, const Direction& direction) const;
+
   const Box& box() const { return box_; }
 
  private:
-  friend class View;
-
-  double decay_ = 0.0;
   Box box_;
-  Vec3 middle_{};
-  Vec3 half_{};
-  bool empty_ = true;          ///< no atom counts: only the tail is there
-  bool usable_ = false;        ///< false: the moments say nothing, the box is too large for the atoms
-  double psi_ = 0.0;           ///< log(phi / c) at the middle
-  Vec3 mean_offset_{};         ///< v (A)
-  double second_[6]{};         ///< E[y y]: xx yy zz xy xz yz (1/A^2)
-  double third_[10]{};         ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
-  double remainder_ = 0.0;     ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
-  Vec3 remainder_slope_{};     ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
-  double growth_ = 1.0;        ///< E[exp(z)] >= g anywhere in the box
-  double log_growth_ = 0.0;
-  double slope_size_ = 0.0;    ///< no |y| is larger (1/A)
-  double relative_error_ = 0.0;
-  double tail_ = 0.0;
-  double tail_slope_ = 0.0;
-  Vec3 atoms_lo_{}, atoms_hi_{};
+  LocalModelTerms terms_;
+};
+
+/// The series of g at the middle of a part of the box, and what it leaves out: of one part, or of one in each lane.
+template <typename Real>
+struct LocalSeries {
+  Real t[3]{};        ///< middle of the part relative to the model's (A)
+  Real s[3]{};        ///< its half widths (A)
+  Real g{};           ///< g and its derivatives at t
+  Real g1[3]{};
+  Real g2[6]{};       ///< xx yy zz xy xz yz
+  Real sum1{}, sum2{}, sum3{};  ///< sums |derivative| s^order over all index tuples
+  Real remainder{};
+  Real remainder_slope[3]{};
 };
 
 /// The model over one part of its box, which may be flat: a face, an edge, a point.
@@ -75,6 +118,13 @@ class LocalModel::View {
   /// The same of the derivative along the vector of a direction, whatever the sign that it tells.
   Range slope(const Direction& direction) const;
 
+  /// What PartProofs says of a part.
+  unsigned directions() const;
+  bool is_surely_crossed() const;
+
+  /// Whether there is no surface in the part, or phi passes c as the direction says wherever it does.
+  bool proves(const Direction& direction) const;
+
   /// log(phi / c) at the middle of the part, from the model, and its gradient; no bounds.
   double middle_value() const;
   Vec3 middle_gradient() const;
@@ -83,17 +133,10 @@ class LocalModel::View {
 
  private:
   template <typename Along>
-  Range slope_of(const Along& along) const;
+  Range slope_along(const Along& along) const;
 
-  const LocalModel& model_;
-  Vec3 t_{};            ///< middle of the part relative to the model's (A)
-  Vec3 s_{};            ///< its half widths (A)
-  double g_ = 1.0;      ///< g and its derivatives at t_
-  Vec3 g1_{};
-  double g2_[6]{};      ///< xx yy zz xy xz yz
-  double sum1_ = 0.0, sum2_ = 0.0, sum3_ = 0.0;  ///< sums |derivative| s^order over all index tuples
-  double remainder_ = 0.0;
-  Vec3 remainder_slope_{};
+  const LocalModelTerms& terms_;
+  LocalSeries<double> series_;
 };
 
 }  // namespace gaussmesh

@@ -26,37 +26,39 @@ constexpr int kMostDirections = 6;
 /// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
 constexpr int kMaxRefinements = 8;
 
-FaceCertificate look_at(const LocalModel::View& view, int axis) {
-  const Range value = view.value();
-  if (value.hi < 0.0 || value.lo > 0.0) return kFaceEmpty;
-  int certificate = kFaceUncertified;
-  const Range first = view.slope(first_axis(axis)), second = view.slope(second_axis(axis));
-  if (first.lo > 0.0 || first.hi < 0.0) certificate |= kFaceAlongFirst;
-  if (second.lo > 0.0 || second.hi < 0.0) certificate |= kFaceAlongSecond;
-  return static_cast<FaceCertificate>(certificate);
+FaceCertificate certificate_from(unsigned directions, int axis) {
+  return directions == kAllDirections ? kFaceEmpty : certificate_in_face(axes_of(directions), axis);
 }
 
-/// One of the four parts of a face across `axis`.
-Box quarter(const Box& face, int axis, int part) {
+using Quarters = std::array<Box, 4>;
+
+/// The four parts of a face across `axis`.
+Quarters quarters_of(const Box& face, int axis) {
   const int a = first_axis(axis), b = second_axis(axis);
-  Box result = face;
-  (part & 1 ? result.lo : result.hi)[a] = 0.5 * (face.lo[a] + face.hi[a]);
-  (part & 2 ? result.lo : result.hi)[b] = 0.5 * (face.lo[b] + face.hi[b]);
-  return result;
+  Quarters quarters;
+  for (int part = 0; part < 4; ++part) {
+    quarters[part] = face;
+    (part & 1 ? quarters[part].lo : quarters[part].hi)[a] = 0.5 * (face.lo[a] + face.hi[a]);
+    (part & 2 ? quarters[part].lo : quarters[part].hi)[b] = 0.5 * (face.lo[b] + face.hi[b]);
+  }
+  return quarters;
 }
 
 }  // namespace
 
 FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face) {
-  const FaceCertificate whole = look_at(model.over(face), axis);
+  const FaceCertificate whole = certificate_from(model.over(face).directions(), axis);
   if (whole != kFaceUncertified) return whole;
   // Quarters of it may all be empty or single-valued along the same axis.
-  int common = kFaceAlongFirst | kFaceAlongSecond | kFaceEmpty;
-  for (int part = 0; part < 4 && common != 0; ++part) {
-    const FaceCertificate certificate = look_at(model.over(quarter(face, axis, part)), axis);
-    if (certificate != kFaceEmpty) common &= certificate;
+  const PartProofs quarters = model.prove(quarters_of(face, axis));
+  unsigned axes = 7;
+  bool is_empty = true;
+  for (int part = 0; part < 4; ++part) {
+    if (quarters.directions[part] == kAllDirections) continue;
+    is_empty = false;
+    axes &= axes_of(quarters.directions[part]);
   }
-  return static_cast<FaceCertificate>(common & kFaceEmpty ? kFaceEmpty : common);
+  return is_empty ? kFaceEmpty : certificate_in_face(axes, axis);
 }
 
 PlanePoint FaceTracer::plane(int point) const {
@@ -167,8 +169,8 @@ bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std
     gradient[axis_] = 0.0;
     cone_.add(gradient);
   };
-  for (int part = 0; part < 4; ++part) {
-    const LocalModel::View view = model.over(quarter(model.box(), axis_, part));
+  for (const Box& quarter : quarters_of(model.box(), axis_)) {
+    const LocalModel::View view = model.over(quarter);
     const Range value = view.value();
     if (value.lo <= 0.0 && value.hi >= 0.0) add_to_cone(view.middle_gradient());
   }
@@ -182,18 +184,13 @@ bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std
 }
 
 bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, const Direction& along, int depth) {
-  const auto is_proven = [&](const LocalModel::View& view) {
-    const Range value = view.value();
-    if (value.hi < 0.0 || value.lo > 0.0) return true;
-    const Range slope = view.slope(along);
-    return along.sign > 0 ? slope.lo > 0.0 : slope.hi < 0.0;
-  };
+  const Quarters quarters = quarters_of(model.box(), axis_);
+  const unsigned proven = model.prove_along(quarters, along);
   for (int part = 0; part < 4; ++part) {
-    const Box box = quarter(model.box(), axis_, part);
-    if (is_proven(model.over(box))) continue;
-    const LocalModel closer(atoms, field_.decay(), box);
+    if (proven >> part & 1) continue;
+    const LocalModel closer(atoms, field_.decay(), quarters[part]);
     const LocalModel::View view = closer.over_all();
-    if (is_proven(view)) continue;
+    if (view.proves(along)) continue;
     const Range slope = view.slope(along);
     if (depth <= 1 || (along.sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) {
       refuting_gradient_ = view.middle_gradient();

@@ -79,6 +79,12 @@ TEST_CASE("vector_log keeps its error over all normal numbers, and where the exp
   CHECK(vector_log(1.0) == 0.0);
 }
 
+TEST_CASE("vector_log of four numbers is that of each") {
+  const Quad x = {0.3, 1.0, 2.5e-300, 7.0e300};
+  const Quad logs = vector_log(x);
+  for (int lane = 0; lane < kQuadLanes; ++lane) CHECK(logs[lane] == Approx(vector_log(x[lane])).epsilon(1e-15));
+}
+
 TEST_CASE("in single precision it is good to 3e-7, and clamped") {
   const std::uint64_t seed = 3;
   CAPTURE(seed);

@@ -187,6 +187,65 @@ TEST_CASE("without atoms left out slope() holds everywhere in the box, surface o
   CHECK(claims > 1000);
 }
 
+TEST_CASE("what is proven of parts side by side is what their views prove, and holds of the exact field") {
+  const std::uint64_t seed = 35;
+  CAPTURE(seed);
+  Random random(seed);
+  std::size_t all = 0, alike = 0, free_parts = 0, claims = 0, points = 0;
+  for (const FieldSample& sample : field_samples(seed)) {
+    CAPTURE(sample.what);
+    for (const double decay : kDecays) {
+      CAPTURE(decay);
+      const GaussianField field(sample.atoms, decay, kIsovalue);
+      const ExactField exact(sample.atoms, decay, kIsovalue);
+      for (int i = 0; i < 60; ++i) {
+        const Box box = random_question(random, sample, exact).box;
+        NearAtoms near;
+        field.collect_near(box, near, random.uniform(5.0, 25.0));
+        const LocalModel model(near, decay, box);
+        std::vector<Box> parts(static_cast<std::size_t>(random.integer(1, PartProofs::kMost)));
+        for (Box& part : parts) part = random_part(random, box, 0.3);
+        const PartProofs proofs = model.prove(parts);
+        const std::vector<Direction> directions = some_directions(random);
+        for (std::size_t n = 0; n < parts.size(); ++n) {
+          const LocalModel::View view = model.over(parts[n]);
+          all += 2;
+          alike += proofs.directions[n] == view.directions();
+          alike += proofs.is_surely_crossed[n] == view.is_surely_crossed();
+          std::vector<Vec3> inside, outside;
+          for (const Vec3& p : points_of(random, parts[n])) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
+          if (proofs.directions[n] == kAllDirections) {
+            ++free_parts;
+            REQUIRE((inside.empty() || outside.empty()));
+          }
+          for (Direction direction : directions) {
+            for (const int sign : {1, -1}) {
+              direction.sign = static_cast<std::int8_t>(sign);
+              const bool is_proven = model.prove_along(parts, direction) >> n & 1;
+              ++all;
+              alike += is_proven == view.proves(direction);
+              const bool is_axis = !direction.is_slanted();
+              if (is_axis) alike += is_proven == ((proofs.directions[n] >> (2 * direction.axis + (sign > 0)) & 1) != 0);
+              all += is_axis;
+              if (!is_proven) continue;
+              ++claims;
+              for (std::size_t p = 0; p < std::min({inside.size(), outside.size(), std::size_t{5}}); ++p) {
+                const Vec3 on_surface = surface_between(exact, inside[p], outside[p]);
+                REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
+                ++points;
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  CHECK(static_cast<double>(all - alike) <= 1e-3 * static_cast<double>(all));  // roundings may tip the scales
+  CHECK(free_parts > 300);
+  CHECK(claims > 1000);
+  CHECK(points > 1000);
+}
+
 TEST_CASE("where the slope is largest and about to change its sign, boxes of every size are right about it") {
   // Two atoms at +-a with 2 d a^2 = 1.2: psi' = 2 d (a tanh(2 d a x) - x) along their axis rises a little, then
   // falls.
