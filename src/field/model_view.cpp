@@ -194,7 +194,10 @@ GAUSSMESH_SIMD_INLINE Ranges<Real> range_of_listed(const LocalModelTerms& m, con
   const Real hi = select(q.g > kLeast, middle + linear + quadratic_hi + rest, infinity);
   const Real lo =
       select((q.g > kLeast) & (change < kMostChange), middle - linear + quadratic_lo - rest - bend, -infinity);
-  const Real rounding = m.relative_error + log_error<Real>() + 1e-15 * size;
+  // Rounding of psi, of what the mean is off by, and of the arithmetic here.
+  Real far{};
+  for (int k = 0; k < 3; ++k) far += size_of(q.t[k]) + q.s[k];
+  const Real rounding = m.relative_error * (1.0 + m.slope_size * far) + log_error<Real>() + 1e-15 * size;
   return {larger_of(lo, plain_lo) - rounding, smaller_of(hi, plain_hi) + rounding};
 }
 
