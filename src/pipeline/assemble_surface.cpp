@@ -28,13 +28,12 @@ class BrickTracer {
     points_ = &points;
     result.links.clear();
     for (std::uint32_t i = 0; i < result.cells.size(); ++i) {
-      result.cells[i].first_link = static_cast<std::uint32_t>(result.links.size());
+      result.cells[i].first_link = small_count<std::uint16_t>(result.links.size(), "curve pieces in a brick");
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t before = result.links.size();
         trace_face({brick_number, i}, axis, result);
         const std::size_t count = result.links.size() - before;
-        if (count > 255) throw InternalError("more than 255 curve pieces on a face: choose a smaller spacing");
-        result.cells[i].link_count[axis] = static_cast<std::uint8_t>(count);
+        result.cells[i].link_count[axis] = small_count<std::uint8_t>(count, "curve pieces on a face");
       }
     }
     result.links.shrink_to_fit();
@@ -43,14 +42,14 @@ class BrickTracer {
  private:
   void trace_face(const CellStore::Place& place, int axis, Brick& result) {
     const SurfaceCell& cell = store_.cell(place);
-    if (cell.face[axis] == kFaceEmpty || (cell.divided_faces >> axis & 1)) return;
+    if (cell.face[axis].certificate == kFaceEmpty || cell.face[axis].is_divided) return;
     const FaceCertificate certificate = certificate_of(place, axis);
     collect_roots(place, axis);
     const CoordPoint lo = lattice_.point(store_.lowest_corner(place));
     CoordPoint hi = lo;
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
-    const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.fold_axes[axis]);
+    const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.face[axis].fold_axes);
     const auto base = static_cast<std::uint32_t>(points_->size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
@@ -61,7 +60,7 @@ class BrickTracer {
   /// it.
   FaceCertificate certificate_of(const CellStore::Place& place, int axis) const {
     const SurfaceCell& cell = store_.cell(place);
-    if (cell.face[axis] != kFaceUncertified) return cell.face[axis];
+    if (cell.face[axis].certificate != kFaceUncertified) return cell.face[axis].certificate;
     const auto below = store_.find(moved(store_.lowest_corner(place), axis, -kFinePerCell), place.brick);
     if (!below) return kFaceEmpty;
     return certificate_in_face(store_.cell(*below).single_axes(), axis);
@@ -182,10 +181,7 @@ class CellPatcher {
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
 
-  static std::uint16_t count(std::size_t n) {
-    if (n > PatchCounts::kMost) throw InternalError("too many triangles in a cell: choose a smaller spacing");
-    return static_cast<std::uint16_t>(n);
-  }
+  static std::uint16_t count(std::size_t n) { return small_count<std::uint16_t>(n, "triangles in a cell"); }
 
   static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
     double sum = 0.0;

@@ -17,7 +17,6 @@ void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore&
 
 /// How much of PatchedCells one cell has.
 struct PatchCounts {
-  static constexpr std::size_t kMost = 0xFFFF;
   std::uint16_t triangles = 0;
   std::uint16_t points = 0;
 };

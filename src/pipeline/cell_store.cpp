@@ -49,10 +49,10 @@ class BrickBuilder {
     SurfaceCell cell;
     cell.local = static_cast<std::uint16_t>(i + kBrickCells * (j + kBrickCells * k));
     cell.direction = found.certificate.direction;
-    cell.first_root = static_cast<std::uint32_t>(roots_->size());
+    cell.first_root = small_count<std::uint16_t>(roots_->size(), "roots in a brick");
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {
-      cell.face[axis] = face_certificate(found, axis);
+      cell.face[axis].certificate = face_certificate(found, axis);
       const unsigned edge = 1u << axis;
       if (found.tables.is_free(i, j, k, edge)) continue;
       const Coord hi = lattice_.plane(axis, found.lo[axis] + kFinePerCell);
@@ -61,8 +61,7 @@ class BrickBuilder {
       const Side upper = found.tables.corner(i + (axis == 0), j + (axis == 1), k + (axis == 2));
       const EdgeEnds ends{found.tables.corner(i, j, k), upper, is_monotone, found.tables.zero_on_edge(i, j, k, axis)};
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
-      if (roots.size() > 255) throw InternalError("more than 255 roots on an edge: choose a smaller spacing");
-      cell.root_count[axis] = static_cast<std::uint8_t>(roots.size());
+      cell.root_count[axis] = small_count<std::uint8_t>(roots.size(), "roots on an edge");
       for (const EdgeRoot& root : roots) {
         roots_->push_back({root.point.position[axis], root.point.normal, root.side});
       }

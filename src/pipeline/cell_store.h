@@ -2,32 +2,53 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "boxes/brick_cells.h"
+#include "gaussmesh/error.h"
 #include "trace/face_tracer.h"
 
 namespace gaussmesh {
 
-/// A cell of level 0. It owns the three edges and the three faces at its lowest corner.
+/// What is known of a face of a cell.
+struct CellFace {
+  FaceCertificate certificate : 4 = kFaceUncertified;
+  std::uint8_t fold_axes : 3 = 0;  ///< bit k: the curves need the fold points of axis k
+  bool is_divided : 1 = false;     ///< it is that of smaller cells
+};
+
+/// A cell of level 0. It owns the three edges and the three faces at its lowest corner. There are as many as triangles, or
+/// nearly, so it is kept small.
 struct SurfaceCell {
-  std::uint16_t local = 0;          ///< i + 8 (j + 8 k) within the brick
-  Direction direction;              ///< of the certificate; none: uncertified
-  bool split = false;               ///< its surface is that of smaller cells
-  std::uint8_t divided_faces = 0;   ///< bit k: the face across axis k is that of smaller cells
-  std::array<std::uint8_t, 3> fold_axes{};  ///< by face: axes whose fold points the curves need (bit mask)
-  std::array<FaceCertificate, 3> face{};
+  std::uint16_t local = 0;       ///< i + 8 (j + 8 k) within the brick
+  std::uint16_t first_root = 0;  ///< roots on the edges along x, y, z, one after the other, counted in the brick
+  std::uint16_t first_link = 0;  ///< links in the faces across x, y, z, one after the other
+  Direction direction;           ///< of the certificate; none: uncertified
+  bool split = false;            ///< its surface is that of smaller cells
+  std::array<CellFace, 3> face{};
   std::array<std::uint8_t, 3> root_count{};
   std::array<std::uint8_t, 3> link_count{};
-  std::uint32_t first_root = 0;     ///< roots on the edges along x, y, z, one after the other, counted in the brick
-  std::uint32_t first_link = 0;     ///< links in the faces across x, y, z, one after the other
 
   /// As in CellCertificate: what is kept of them.
   unsigned single_axes() const { return direction.sign != 0 && !direction.is_slanted() ? 1u << direction.axis : 0u; }
 };
+
+static_assert(sizeof(SurfaceCell) == 20);
+
+/// A count that is kept in fewer bits.
+/// @throws InternalError if it does not fit, as of bricks and faces that the surface goes through hundreds of times
+template <typename Small>
+Small small_count(std::size_t count, const char* what) {
+  if (count > std::numeric_limits<Small>::max()) {
+    throw InternalError(std::string("too many ") + what + ": choose a smaller spacing");
+  }
+  return static_cast<Small>(count);
+}
 
 /// Vertices with numbers that follow each other.
 struct VertexRange {

@@ -22,7 +22,7 @@ void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std:
   if (level == 0) {
     const auto place = store_.find(lo, hint);
     if (!place) return;
-    if (store_.cell(*place).divided_faces >> axis & 1) return collect_parts(axis, lo, level, hint, high_side);
+    if (store_.cell(*place).face[axis].is_divided) return collect_parts(axis, lo, level, hint, high_side);
     links = store_.face_links(*place, axis);
   } else {
     if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);

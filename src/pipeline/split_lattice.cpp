@@ -57,12 +57,13 @@ unsigned fold_axes_of(const FoldCell& cell) {
 void mark_folds(const FoldCellMap& folds, CellStore& store) {
   for (const auto& [key, cell] : folds) {
     if (key.level > 0) continue;
-    const auto axes = static_cast<std::uint8_t>(fold_axes_of(cell));
+    const unsigned axes = fold_axes_of(cell);
+    const auto add_axes = [&](CellFace& face) { face.fold_axes = (face.fold_axes | axes) & 7u; };
     const auto place = store.find(key.lo);
     for (int axis = 0; axis < 3; ++axis) {
-      store.cell(*place).fold_axes[axis] |= axes;
+      add_axes(store.cell(*place).face[axis]);
       const auto next = store.find(moved(key.lo, axis, kFinePerCell), place->brick);
-      if (next) store.cell(*next).fold_axes[axis] |= axes;
+      if (next) add_axes(store.cell(*next).face[axis]);
     }
   }
 }
@@ -177,8 +178,8 @@ std::vector<CellStore::Place> SplitLattice::changed_places() const {
 void SplitLattice::mark_cells(CellStore& store) const {
   const auto take_over = [&](const CellStore::Place& place, int axis) {
     SurfaceCell& owner = store.cell(place);
-    if (owner.divided_faces >> axis & 1) return;
-    owner.divided_faces |= static_cast<std::uint8_t>(1u << axis);
+    if (owner.face[axis].is_divided) return;
+    owner.face[axis].is_divided = true;
     for (const Link& link : store.face_links(place, axis)) {
       if (link.from >= store.root_vertices()) vertices_.drop({link.from, 1});
     }
