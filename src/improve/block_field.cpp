@@ -115,6 +115,7 @@ BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(fiel
   }
   field.collect_near(widened(box, kMargin * cell_size_), atoms_, kExactCut);
   is_rough_usable_ = atoms_.w_size <= kLargestRoughWeight;
+  group_lists_.resize(kMostGroups * kMostGroups * kMostGroups);
   lists_.resize(count);
   rough_lists_.resize(count);
 }
@@ -129,19 +130,31 @@ std::size_t BlockField::number_of(const std::array<int, 3>& cell) const {
   return static_cast<std::size_t>((cell[0] * cells_[1] + cell[1]) * cells_[2] + cell[2]);
 }
 
-Box BlockField::box_around(const std::array<int, 3>& cell) const {
+Box BlockField::box_around(const std::array<int, 3>& cell, int cells) const {
   Box box;
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = box_.lo[k] + (cell[k] - kMargin) * cell_size_;
-    box.hi[k] = box_.lo[k] + (cell[k] + 1 + kMargin) * cell_size_;
+    box.hi[k] = box_.lo[k] + (cell[k] + cells + kMargin) * cell_size_;
   }
   return box;
+}
+
+const NearAtoms& BlockField::atoms_around(const std::array<int, 3>& cell) {
+  std::array<int, 3> first;
+  std::size_t number = 0;
+  for (int k = 0; k < 3; ++k) {
+    first[k] = cell[k] / kGroupCells * kGroupCells;
+    number = number * kMostGroups + static_cast<std::size_t>(cell[k] / kGroupCells);
+  }
+  NearAtoms& list = group_lists_[number];
+  if (list.size() == 0) list.restrict_from(atoms_, box_around(first, kGroupCells), decay_, kExactCut);
+  return list;
 }
 
 const NearAtoms& BlockField::atoms_at(const Vec3& point) {
   const std::array<int, 3> cell = cell_of(point);
   NearAtoms& list = lists_[number_of(cell)];
-  if (list.size() == 0) list.restrict_from(atoms_, box_around(cell), decay_, kExactCut);
+  if (list.size() == 0) list.restrict_from(atoms_around(cell), box_around(cell, 1), decay_, kExactCut);
   return list;
 }
 
@@ -149,8 +162,8 @@ const RoughAtoms& BlockField::rough_atoms_at(const Vec3& point) {
   const std::array<int, 3> cell = cell_of(point);
   RoughAtoms& list = rough_lists_[number_of(cell)];
   if (!list.x.empty()) return list;
-  const Box box = box_around(cell);
-  some_.restrict_from(atoms_, box, decay_, kRoughCut);
+  const Box box = box_around(cell, 1);
+  some_.restrict_from(atoms_around(cell), box, decay_, kRoughCut);
   list.origin = 0.5 * (box.lo + box.hi);
   const std::size_t padded = (some_.size() / kRoughLanes + 1) * kRoughLanes;
   const auto fill = [&](const std::vector<double>& from, double origin, std::vector<float>& to) {

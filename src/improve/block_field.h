@@ -60,10 +60,15 @@ class BlockField {
 
  private:
   static constexpr int kMostCells = 16;  ///< along an axis
+  static constexpr int kGroupCells = 4;  ///< along an axis: their lists come from one list for all of them
+  static constexpr int kMostGroups = kMostCells / kGroupCells;
 
   std::array<int, 3> cell_of(const Vec3& point) const;
   std::size_t number_of(const std::array<int, 3>& cell) const;
-  Box box_around(const std::array<int, 3>& cell) const;
+  /// Of some cells along each axis, from a first one on.
+  Box box_around(const std::array<int, 3>& cell, int cells) const;
+  /// Those that count in the group of a cell.
+  const NearAtoms& atoms_around(const std::array<int, 3>& cell);
   const NearAtoms& atoms_at(const Vec3& point);
   const RoughAtoms& rough_atoms_at(const Vec3& point);
   PointValue evaluate_roughly(const Vec3& point);
@@ -74,7 +79,8 @@ class BlockField {
   std::array<int, 3> cells_{};
   bool is_rough_usable_;  ///< no log-weight is so large that single precision would lose the surface
   NearAtoms atoms_, some_;
-  std::vector<NearAtoms> lists_;         ///< by cell; no atoms: not yet made
+  std::vector<NearAtoms> group_lists_;   ///< by group; no atoms: not yet made
+  std::vector<NearAtoms> lists_;         ///< by cell, the same
   std::vector<RoughAtoms> rough_lists_;  ///< the same
 };
 

@@ -67,23 +67,26 @@ bool has_close_sheet(const VertexArrays& a, std::uint32_t v, const Run* runs, st
 /// The vertices of a block in a grid of cells as wide as `reach`, which no vertex reaches farther than.
 class VertexGrid {
  public:
-  VertexGrid(const BlockMesh& mesh, double reach) : first_(kCells * kCells * kCells + 1, 0) {
+  VertexGrid(const BlockMesh& mesh, double reach) {
     // Cells no narrower than the reach; what lies outside the box goes to the cells at its sides.
     double width = 0.0;
     for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
-    const double cell_size = std::max(reach, width / kCells);
+    const double cell_size = std::max(reach, width / kMostCells);
+    cells_ = std::clamp(static_cast<int>(std::ceil(width / cell_size)), 1, kMostCells);
+    const auto all_cells = static_cast<std::size_t>(cells_ * cells_ * cells_);
+    first_.assign(all_cells + 1, 0);
     std::vector<std::uint32_t> cell_of;
     cell_of.reserve(mesh.at.size());
     for (const Vec3& p : mesh.at) {
       int cell = 0;
-      for (int k = 0; k < 3; ++k) cell = cell * kCells + slab_of((p[k] - mesh.box.lo[k]) / cell_size, kCells);
+      for (int k = 0; k < 3; ++k) cell = cell * cells_ + slab_of((p[k] - mesh.box.lo[k]) / cell_size, cells_);
       cell_of.push_back(static_cast<std::uint32_t>(cell));
     }
     for (const std::uint32_t cell : cell_of) ++first_[cell + 1];
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     sorted_.resize(mesh.at.size());
     for (auto* array : {&of_.x, &of_.y, &of_.z, &of_.nx, &of_.ny, &of_.nz, &of_.reach}) array->resize(mesh.at.size());
-    boxes_.resize(kCells * kCells * kCells);
+    boxes_.resize(all_cells);
     std::vector<std::uint32_t> fill(first_.begin(), first_.end() - 1);
     for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
       const std::uint32_t i = fill[cell_of[v]]++;
@@ -106,15 +109,15 @@ class VertexGrid {
   void find_close_sheets(const Mark& mark) const {
     for (std::uint32_t cell = 0; cell < boxes_.size(); ++cell) {
       if (first_[cell] == first_[cell + 1]) continue;
-      const std::array<int, 3> at{static_cast<int>(cell) / (kCells * kCells),
-                                  static_cast<int>(cell) / kCells % kCells, static_cast<int>(cell) % kCells};
+      const auto number = static_cast<int>(cell);
+      const std::array<int, 3> at{number / (cells_ * cells_), number / cells_ % cells_, number % cells_};
       std::array<Run, 9> runs;
       std::size_t count = 0;
-      for (int i = std::max(0, at[0] - 1); i <= std::min(kCells - 1, at[0] + 1); ++i) {
-        for (int j = std::max(0, at[1] - 1); j <= std::min(kCells - 1, at[1] + 1); ++j) {
+      for (int i = std::max(0, at[0] - 1); i <= std::min(cells_ - 1, at[0] + 1); ++i) {
+        for (int j = std::max(0, at[1] - 1); j <= std::min(cells_ - 1, at[1] + 1); ++j) {
           Run run{0, 0};
-          for (int k = std::max(0, at[2] - 1); k <= std::min(kCells - 1, at[2] + 1); ++k) {
-            const auto other = static_cast<std::uint32_t>((i * kCells + j) * kCells + k);
+          for (int k = std::max(0, at[2] - 1); k <= std::min(cells_ - 1, at[2] + 1); ++k) {
+            const auto other = static_cast<std::uint32_t>((i * cells_ + j) * cells_ + k);
             if (first_[other] == first_[other + 1]) continue;
             if (boxes_[cell].least_cosine(boxes_[other]) >= kOtherSheet) continue;
             if (run.last == 0) run.first = first_[other];
@@ -130,8 +133,9 @@ class VertexGrid {
   }
 
  private:
-  static constexpr int kCells = 16;
+  static constexpr int kMostCells = 24;  ///< along an axis
 
+  int cells_ = 1;                      ///< along an axis
   std::vector<std::uint32_t> first_;   ///< by cell: of its vertices in sorted_
   std::vector<std::uint32_t> sorted_;  ///< vertices by cell
   VertexArrays of_;                    ///< by place in sorted_
