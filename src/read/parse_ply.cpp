@@ -173,8 +173,12 @@ class BinaryNumbers {
                        std::to_string(offset_ + bytes_.size()));
     }
     std::array<char, 8> value{};
-    std::memcpy(value.data(), bytes_.data() + position_, type.bytes);
-    if (is_big_endian_) std::reverse(value.begin(), value.begin() + static_cast<std::ptrdiff_t>(type.bytes));
+    const char* const from = bytes_.data() + position_;
+    if (is_big_endian_) {
+      std::reverse_copy(from, from + type.bytes, value.begin());
+    } else {
+      std::copy(from, from + type.bytes, value.begin());
+    }
     position_ += type.bytes;
     const double number = convert(type, value.data());
     if (!std::isfinite(number)) fail("a finite number", number);
