@@ -45,6 +45,29 @@ Extremes extremes_of(const double* values, std::size_t n) {
   return {least, largest};
 }
 
+/// Over a box: the sum of what the weights of atoms can be at most, and the largest exponent that one has at least.
+struct DistanceSums {
+  double largest, least_exponent;
+};
+
+GAUSSMESH_SIMD_CLONES
+DistanceSums sums_by_distance(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
+                              const double* lo, const double* hi) {
+  const double ax = lo[0], ay = lo[1], az = lo[2], bx = hi[0], by = hi[1], bz = hi[2];
+  double sum = 0.0, largest_lower = -1e300;
+#pragma omp simd reduction(+ : sum) reduction(max : largest_lower)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double gx = gap(x[i], ax, bx), gy = gap(y[i], ay, by), gz = gap(z[i], az, bz);
+    const double fx = std::max(bx - x[i], x[i] - ax), fy = std::max(by - y[i], y[i] - ay),
+                 fz = std::max(bz - z[i], z[i] - az);
+    const double near_sq = d * (gx * gx + gy * gy + gz * gz), far_sq = d * (fx * fx + fy * fy + fz * fz);
+    sum += vector_exp(w[i] - near_sq + exponent_slack(w[i], near_sq));
+    const double lower = w[i] - far_sq - exponent_slack(w[i], far_sq);
+    largest_lower = lower > largest_lower ? lower : largest_lower;
+  }
+  return {sum, largest_lower};
+}
+
 /// Copies chosen entries and gives their least and largest; there is at least one.
 Extremes gather(const double* from, const std::uint32_t* index, std::size_t n, double* to) {
   for (std::size_t i = 0; i < n; ++i) to[i] = from[index[i]];
@@ -127,24 +150,9 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
 }
 
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay) {
-  CrudeBounds bounds;
-  double sum = 0.0;
-  double largest_lower = -1e300;
-  for (std::size_t i = 0; i < atoms.size(); ++i) {
-    const double gx = gap(atoms.x[i], box.lo[0], box.hi[0]);
-    const double gy = gap(atoms.y[i], box.lo[1], box.hi[1]);
-    const double gz = gap(atoms.z[i], box.lo[2], box.hi[2]);
-    const double fx = std::max(box.hi[0] - atoms.x[i], atoms.x[i] - box.lo[0]);
-    const double fy = std::max(box.hi[1] - atoms.y[i], atoms.y[i] - box.lo[1]);
-    const double fz = std::max(box.hi[2] - atoms.z[i], atoms.z[i] - box.lo[2]);
-    const double near_sq = decay * (gx * gx + gy * gy + gz * gz);
-    const double far_sq = decay * (fx * fx + fy * fy + fz * fz);
-    sum += vector_exp(atoms.w[i] - near_sq + exponent_slack(atoms.w[i], near_sq));
-    largest_lower = std::max(largest_lower, atoms.w[i] - far_sq - exponent_slack(atoms.w[i], far_sq));
-  }
-  bounds.upper = sum * (1.0 + 1e-9) + atoms.tail;
-  bounds.inside = largest_lower > 0.0;
-  return bounds;
+  const DistanceSums sums = sums_by_distance(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.size(),
+                                             decay, box.lo.data(), box.hi.data());
+  return {sums.largest * (1.0 + 1e-9) + atoms.tail, sums.least_exponent > 0.0};
 }
 
 }  // namespace gaussmesh
