@@ -139,7 +139,7 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
   });
   for (Brick& brick : all) {
     if (brick.cells.empty()) continue;
-    by_index_.emplace(brick.index, static_cast<std::uint32_t>(bricks_.size()));
+    numbers_.insert(brick.index);
     bricks_.push_back(std::move(brick));
   }
 }
@@ -156,9 +156,9 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
   if (bricks_.empty()) return std::nullopt;
   const BrickIndex& hinted = bricks_[hint].index;  // compared without a call of memcmp()
   if (hinted[0] != index[0] || hinted[1] != index[1] || hinted[2] != index[2]) {
-    const auto it = by_index_.find(index);
-    if (it == by_index_.end()) return std::nullopt;
-    number = it->second;
+    const std::optional<std::uint32_t> found = numbers_.find(index);
+    if (!found) return std::nullopt;
+    number = *found;
   }
   const Brick& brick = bricks_[number];
   const std::uint64_t bit = 1ull << (local % 64);

@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "boxes/brick_cells.h"
+#include "core/key_index.h"
 #include "gaussmesh/error.h"
 #include "trace/face_tracer.h"
 
@@ -76,7 +76,7 @@ class CellStore {
   /// Gives all cells and curves back, when nobody asks for them any more. @return the roots, which are vertices
   std::vector<SurfacePoint> release_roots() {
     bricks_ = std::vector<Brick>();
-    by_index_ = {};
+    numbers_ = {};
     rises_ = std::vector<std::int8_t>();
     return std::move(roots_);
   }
@@ -110,7 +110,7 @@ class CellStore {
     std::size_t operator()(const BrickIndex& b) const;
   };
   std::vector<Brick> bricks_;
-  std::unordered_map<BrickIndex, std::uint32_t, IndexHash> by_index_;
+  KeyIndex<BrickIndex, IndexHash> numbers_;  ///< of bricks_
   std::vector<SurfacePoint> roots_;
   std::vector<std::int8_t> rises_;
 };
