@@ -8,7 +8,7 @@ Every molecule is meshed at every spacing as traced (--raw) and by default, on o
 program where there is one: any that is called `PROGRAM IN.pqr OUT.off -s SPACING -d D -c C` and uses one thread. Runs
 take turns, so that what else the machine does meets all alike. CPU time is user and system time of the whole process,
 reading and writing included; ratios and speed-ups are taken within each turn, and the median over the turns is given.
-Peak memory is the largest resident set.
+Peak memory is the largest resident set, of one more run on one thread.
 
 The output folder gets benchmark.tsv, benchmark.md and, where Matplotlib is there, benchmark.svg; they grow with each
 molecule and spacing that is done.
@@ -36,7 +36,7 @@ REFERENCE, RAW, DEFAULT = "reference", "raw", "default"
 
 
 def run(command, threads):
-    """Runs a program to its end. @return CPU time and wall time (s), peak memory (bytes)"""
+    """Runs a program to its end. @return CPU time and wall time (s)"""
     environment = {**os.environ, "OMP_NUM_THREADS": str(threads)}
     begin = time.perf_counter()
     with subprocess.Popen(list(map(str, command)), env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -47,7 +47,21 @@ def run(command, threads):
     wall_s = time.perf_counter() - begin
     if process.returncode != 0:
         sys.exit(f"benchmark.py: {' '.join(map(str, command))}: exit {process.returncode}: {message}")
-    return usage.ru_utime + usage.ru_stime, wall_s, usage.ru_maxrss * 1024
+    return usage.ru_utime + usage.ru_stime, wall_s
+
+
+def peak_memory(command):
+    """Largest resident set (bytes), asked for while the program runs: what is told of a process that has ended counts this
+    script as well, which it was before it became the program."""
+    peak = 0
+    with subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="ascii", errors="replace")
+            sizes = [line.split()[1] for line in status.splitlines() if line.startswith("VmHWM:")]
+            peak = max([peak, *(int(size) * 1024 for size in sizes)])
+            time.sleep(0.0005)
+    return peak
 
 
 def count_triangles(path):
@@ -69,35 +83,38 @@ def commands(molecule, spacing, mesh, options):
 
 
 def take_turns(molecule, spacing, folder, options):
-    """All runs on one molecule at one spacing. @return by kind and threads: a list of (triangles, cpu, wall, bytes)"""
+    """All runs on one molecule at one spacing.
+
+    @return by kind and threads: a list of (triangles, cpu, wall); and by kind: peak memory
+    """
     mesh = folder / "mesh.off"
     results = {}
     for turn in range(options.runs):
         for kind, command in commands(molecule, spacing, mesh, options).items():
             for threads in (1,) if kind == REFERENCE or turn >= options.two_thread_runs else (1, 2):
-                cpu_s, wall_s, peak = run(command(threads), threads)
-                results.setdefault((kind, threads), []).append((count_triangles(mesh), cpu_s, wall_s, peak))
+                cpu_s, wall_s = run(command(threads), threads)
+                results.setdefault((kind, threads), []).append((count_triangles(mesh), cpu_s, wall_s))
         print(f"  turn {turn + 1} of {options.runs} done", file=sys.stderr)
-    return results
+    peaks = {kind: peak_memory(command(1)) for kind, command in commands(molecule, spacing, mesh, options).items()}
+    return results, peaks
 
 
-def rows_of(molecule, spacing, results):
+def rows_of(molecule, spacing, results, peaks):
     """A row for each kind of mesh."""
-    reference = [cpu / triangles for triangles, cpu, _, _ in results.get((REFERENCE, 1), [])]
+    reference = [cpu / triangles for triangles, cpu, _ in results.get((REFERENCE, 1), [])]
     for kind in (REFERENCE, RAW, DEFAULT):
         turns = results.get((kind, 1))
         if not turns:
             continue
         triangles = turns[0][0]
-        peak = statistics.median(peak for _, _, _, peak in turns)
-        each = [cpu / count for count, cpu, _, _ in turns]
+        each = [cpu / count for count, cpu, _ in turns]
         ratios = [own / other for own, other in zip(each, reference)]
         speed_ups = [one[2] / two[2] for one, two in zip(turns, results.get((kind, 2), []))]
         yield {"molecule": molecule, "spacing_A": spacing, "mesh": kind, "triangles": triangles,
-               "cpu_s": f"{statistics.median(cpu for _, cpu, _, _ in turns):.3f}",
+               "cpu_s": f"{statistics.median(cpu for _, cpu, _ in turns):.3f}",
                "cpu_us_per_triangle": f"{statistics.median(each) * 1e6:.3f}",
                "times_reference": f"{statistics.median(ratios):.2f}" if ratios else "",
-               "peak_bytes_per_triangle": f"{peak / triangles:.0f}", "peak_MB": f"{peak / 1e6:.1f}",
+               "peak_bytes_per_triangle": f"{peaks[kind] / triangles:.0f}", "peak_MB": f"{peaks[kind] / 1e6:.1f}",
                "two_thread_speed_up": f"{statistics.median(speed_ups):.2f}" if speed_ups else ""}
 
 
@@ -149,7 +166,7 @@ def write_table(rows, facts, folder):
 
 def draw(rows, path):
     """Bars of time and memory for each triangle, by molecule and spacing."""
-    import matplotlib  # here, so that what it takes is not in the children's peak memory
+    import matplotlib  # here, since the table does without
     matplotlib.use("svg")
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "gaussmesh"})
     from matplotlib import pyplot
@@ -213,7 +230,7 @@ def main():
             molecule = plain_copy(path, folder)
             for spacing in options.spacings:
                 print(f"{molecule.stem} at {spacing:g} A", file=sys.stderr)
-                rows += rows_of(molecule.stem, spacing, take_turns(molecule, spacing, folder, options))
+                rows += rows_of(molecule.stem, spacing, *take_turns(molecule, spacing, folder, options))
                 write_table(rows, facts, options.output)
     try:
         draw(rows, options.output / "benchmark.svg")
