@@ -112,7 +112,8 @@ class LocalModel::View {
   /// Range of log(phi / c) over the part.
   Range value() const;
 
-  /// Range that has the sign of d(phi)/dx_axis wherever in the part phi = c: a positive `lo` or negative `hi` proves it.
+  /// Range that has the sign of d(phi)/dx_axis wherever in the part phi = c: a positive `lo` or a negative `hi` proves
+  /// it.
   Range slope(int axis) const;
 
   /// The same of the derivative along the vector of a direction, whatever the sign that it tells.

@@ -140,7 +140,8 @@ GAUSSMESH_SIMD_INLINE void measure_series(const LocalModelTerms& m, const Real& 
   for (int k = 0; k < 3; ++k) q.remainder_slope[k] = cube * m.remainder_slope[k] + lost * m.slope_size;
 }
 
-/// log(phi / c) at the middle of the part. @param g  that of the series, or what stands for it where that is not above 0
+/// log(phi / c) at the middle of the part.
+/// @param g  that of the series, or what stands for it where that is not above 0
 template <typename Real>
 GAUSSMESH_SIMD_INLINE Real middle_of(const LocalModelTerms& m, const LocalSeries<Real>& q, const Real& g) {
   Real value = m.psi + log_of(g);
@@ -299,7 +300,8 @@ void prove_quad(const LocalModelTerms& m, const PartQuad& parts, double outside,
   QuadBits proven{};
   for (int axis = 0; axis < 3; ++axis) {
     const Ranges<Quad> slope = slope_of(m, q, AlongAxis{axis});
-    proven |= ((slope.lo > 0.0) & (std::int64_t{2} << (2 * axis))) | ((slope.hi < 0.0) & (std::int64_t{1} << (2 * axis)));
+    proven |= (slope.lo > 0.0) & (std::int64_t{2} << (2 * axis));
+    proven |= (slope.hi < 0.0) & (std::int64_t{1} << (2 * axis));
   }
   directions = proven | (is_free(range_of_listed(m, q), outside) & std::int64_t{kAllDirections});
   is_surely_crossed = crosses_inner_half(m, q);
@@ -386,8 +388,8 @@ Range LocalModel::View::value() const {
   if (!terms_.usable) return {-kInfinity, kInfinity};
   const Ranges<double> listed = range_of_listed(terms_, series_);
   Range range{listed.lo, listed.hi};
-  // Atoms left out add up to `tail` to phi / c, which raises its logarithm by no more than tail where phi > c, and by no
-  // more than tail / p where phi > p c.
+  // Atoms left out add up to `tail` to phi / c, which raises its logarithm by no more than tail where phi > c, and by
+  // no more than tail / p where phi > p c.
   if (terms_.tail > 0.0) {
     const double hi = range.hi;
     range.hi = hi > 0.0      ? hi + terms_.tail

@@ -51,8 +51,8 @@ struct DistanceSums {
 };
 
 GAUSSMESH_SIMD_CLONES
-DistanceSums sums_by_distance(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
-                              const double* lo, const double* hi) {
+DistanceSums sums_by_distance(const double* x, const double* y, const double* z, const double* w, std::size_t n,
+                              double d, const double* lo, const double* hi) {
   const double ax = lo[0], ay = lo[1], az = lo[2], bx = hi[0], by = hi[1], bz = hi[2];
   double sum = 0.0, largest_lower = -1e300;
 #pragma omp simd reduction(+ : sum) reduction(max : largest_lower)
@@ -150,8 +150,8 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
 }
 
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay) {
-  const DistanceSums sums = sums_by_distance(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(), atoms.size(),
-                                             decay, box.lo.data(), box.hi.data());
+  const DistanceSums sums = sums_by_distance(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(),
+                                             atoms.size(), decay, box.lo.data(), box.hi.data());
   return {sums.largest * (1.0 + 1e-9) + atoms.tail, sums.least_exponent > 0.0};
 }
 

@@ -22,8 +22,8 @@ struct CellFace {
   bool is_divided : 1 = false;     ///< it is that of smaller cells
 };
 
-/// A cell of level 0. It owns the three edges and the three faces at its lowest corner. There are as many as triangles, or
-/// nearly, so it is kept small.
+/// A cell of level 0. It owns the three edges and the three faces at its lowest corner. There is one for two triangles, so
+/// it is kept small.
 struct SurfaceCell {
   std::uint16_t local = 0;       ///< i + 8 (j + 8 k) within the brick
   std::uint16_t first_root = 0;  ///< roots on the edges along x, y, z, one after the other, counted in the brick
