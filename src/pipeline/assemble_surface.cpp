@@ -13,6 +13,12 @@
 namespace gaussmesh {
 namespace {
 
+/// What is followed on the faces that one brick owns.
+struct BrickCurves {
+  std::vector<Link> links;
+  std::vector<SurfacePoint> points;  ///< inside faces: the vertices of the links from kLocalVertex on
+};
+
 /// Follows the curves on the faces that one brick owns.
 class BrickTracer {
  public:
@@ -21,26 +27,25 @@ class BrickTracer {
     tracer_.set_plain(true);
   }
 
-  /// Fills the links of a brick, and nothing that other bricks are traced from.
-  /// @param points  gets the vertices inside faces, those of the links from kLocalVertex on
-  void trace(Brick& result, std::uint32_t brick_number, std::vector<SurfacePoint>& points) {
+  /// Counts the links in a brick's cells, and changes nothing that other bricks are traced from.
+  BrickCurves trace(const Brick& brick, std::uint32_t brick_number) {
     move_to(brick_number);
-    points_ = &points;
-    result.links.clear();
-    for (std::uint32_t i = 0; i < result.cells.size(); ++i) {
-      result.cells[i].first_link = small_count<std::uint16_t>(result.links.size(), "curve pieces in a brick");
+    BrickCurves result;
+    for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
+      brick.cells[i].first_link = small_count<std::uint16_t>(result.links.size(), "curve pieces in a brick");
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t before = result.links.size();
         trace_face({brick_number, i}, axis, result);
         const std::size_t count = result.links.size() - before;
-        result.cells[i].link_count[axis] = small_count<std::uint8_t>(count, "curve pieces on a face");
+        brick.cells[i].link_count[axis] = small_count<std::uint8_t>(count, "curve pieces on a face");
       }
     }
     result.links.shrink_to_fit();
+    return result;
   }
 
  private:
-  void trace_face(const CellStore::Place& place, int axis, Brick& result) {
+  void trace_face(const CellStore::Place& place, int axis, BrickCurves& result) {
     const SurfaceCell& cell = store_.cell(place);
     if (cell.face[axis].certificate == kFaceEmpty || cell.face[axis].is_divided) return;
     const FaceCertificate certificate = certificate_of(place, axis);
@@ -50,10 +55,10 @@ class BrickTracer {
     hi[first_axis(axis)] += lattice_.step * kFinePerCell;
     hi[second_axis(axis)] += lattice_.step * kFinePerCell;
     const FaceCurves& curves = tracer_.trace(axis, lo, hi, certificate, roots_, cell.face[axis].fold_axes);
-    const auto base = static_cast<std::uint32_t>(points_->size());
+    const auto base = static_cast<std::uint32_t>(result.points.size());
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? base + v : v; };
     for (const Link& link : curves.links) result.links.push_back({numbered(link.from), numbered(link.to)});
-    points_->insert(points_->end(), curves.points.begin(), curves.points.end());
+    result.points.insert(result.points.end(), curves.points.begin(), curves.points.end());
   }
 
   /// A face without a certificate of its own is single-valued along the axis of the cell below it, if that lies in
@@ -95,7 +100,6 @@ class BrickTracer {
   FaceTracer tracer_;
   LocalAtoms atoms_;   ///< near the brick
   std::vector<FaceRoot> roots_;
-  std::vector<SurfacePoint>* points_ = nullptr;
 };
 
 /// Cells of this level and finer are not split any more for a triangle that is turned against the field: the promise
@@ -108,27 +112,35 @@ class CellCopier {
   explicit CellCopier(const PatchedCells& from) : from_(from) {}
 
   void skip() {
-    first_triangle_ += from_.counts[cell_].triangles;
-    first_point_ += from_.counts[cell_].points;
-    ++cell_;
+    first_point_ += points_of_cell();
+    first_triangle_ += from_.counts[cell_++];
   }
 
   void copy(bool is_fold_cell, PatchedCells& result) {
-    const PatchCounts& counts = from_.counts[cell_];
+    const std::uint16_t triangles = from_.counts[cell_];
     const auto shift = static_cast<std::uint32_t>(result.points.size()) - first_point_;
-    for (std::uint32_t t = first_triangle_; t < first_triangle_ + counts.triangles; ++t) {
+    for (std::uint32_t t = first_triangle_; t < first_triangle_ + triangles; ++t) {
       Triangle triangle = from_.triangles[t];
       for (std::uint32_t& v : triangle) v = v >= kLocalVertex ? v + shift : v;
       result.triangles.push_back(triangle);
     }
     const auto points = from_.points.begin() + first_point_;
-    result.points.insert(result.points.end(), points, points + counts.points);
-    result.counts.push_back(counts);
-    result.fold_cells += is_fold_cell && counts.triangles > 0;
+    result.points.insert(result.points.end(), points, points + points_of_cell());
+    result.counts.push_back(triangles);
+    result.fold_cells += is_fold_cell && triangles > 0;
     skip();
   }
 
  private:
+  /// How many vertices inside itself the cell has: each of them is a corner of its triangles.
+  std::uint32_t points_of_cell() const {
+    std::uint32_t end = kLocalVertex + first_point_;
+    for (std::uint32_t t = first_triangle_; t < first_triangle_ + from_.counts[cell_]; ++t) {
+      for (const std::uint32_t v : from_.triangles[t]) end = std::max(end, v + 1);
+    }
+    return end - kLocalVertex - first_point_;
+  }
+
   const PatchedCells& from_;
   std::size_t cell_ = 0;
   std::uint32_t first_triangle_ = 0, first_point_ = 0;
@@ -153,9 +165,9 @@ class CellPatcher {
 
   void patch_cell(const CellStore::Place& place, Result& result) {
     const SurfaceCell& cell = store_.cell(place);
-    const std::size_t triangles = result.triangles.size(), points = result.points.size();
+    const std::size_t before = result.triangles.size();
     if (!cell.split) patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, result);
-    result.counts.push_back({count(result.triangles.size() - triangles), count(result.points.size() - points)});
+    result.counts.push_back(small_count<std::uint16_t>(result.triangles.size() - before, "triangles in a cell"));
   }
 
   void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.direction, 0, result); }
@@ -180,8 +192,6 @@ class CellPatcher {
     }
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
-
-  static std::uint16_t count(std::size_t n) { return small_count<std::uint16_t>(n, "triangles in a cell"); }
 
   static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
     double sum = 0.0;
@@ -250,23 +260,27 @@ class CellPatcher {
 
 void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store, TracedVertices& vertices,
                   int threads) {
-  std::vector<Brick>& bricks = store.bricks();
-  std::vector<std::vector<SurfacePoint>> points(bricks.size());
+  const std::vector<Brick>& bricks = store.bricks();
+  std::vector<BrickCurves> curves(bricks.size());
   parallel_for_workers(bricks.size(), threads, 1, [&] {
     return [&, tracer = BrickTracer(field, lattice, store)](std::size_t i) mutable {
-      tracer.trace(bricks[i], static_cast<std::uint32_t>(i), points[i]);
+      curves[i] = tracer.trace(bricks[i], static_cast<std::uint32_t>(i));
     };
   });
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    const std::uint32_t first = vertices.add(points[i]).first;
+  std::vector<std::vector<Link>> links;
+  links.reserve(bricks.size());
+  for (BrickCurves& found : curves) {
+    const std::uint32_t first = vertices.add(found.points).first;
     const auto number = [&](std::uint32_t& v) {
       if (v >= kLocalVertex) v = first + (v - kLocalVertex);
     };
-    for (Link& link : bricks[i].links) {
+    for (Link& link : found.links) {
       number(link.from);
       number(link.to);
     }
+    links.push_back(std::move(found.links));
   }
+  store.set_links(std::move(links), threads);
 }
 
 std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, const FoldCellMap& folds,

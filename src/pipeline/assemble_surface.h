@@ -1,6 +1,8 @@
 // From cells with roots to the mesh: curves on faces, loops, patches.
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
@@ -15,18 +17,12 @@ namespace gaussmesh {
 void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store, TracedVertices& vertices,
                   int threads);
 
-/// How much of PatchedCells one cell has.
-struct PatchCounts {
-  std::uint16_t triangles = 0;
-  std::uint16_t points = 0;
-};
-
-/// Triangles of the cells of one brick, or of the leaves of one split cell. Vertices inside cells are numbered from
-/// kLocalVertex on.
+/// Triangles of the cells of one brick, or of the leaves of one split cell, cell after cell. Vertices inside cells are
+/// numbered from kLocalVertex on.
 struct PatchedCells {
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;
-  std::vector<PatchCounts> counts;   ///< by cell of a brick, until nothing changes any more
+  std::vector<std::uint16_t> counts;   ///< of triangles, by cell of a brick
   std::vector<CellKey> failed;
   std::size_t fold_cells = 0;
 };
@@ -56,7 +52,7 @@ class CellTriangulator {
   const Lattice& lattice_;
   const CellStore& store_;
   double least_corner_cosine_;
-  std::vector<PatchedCells> patched_;   ///< by brick, then by split cell
+  std::deque<PatchedCells> patched_;   ///< by brick, then by split cell
 };
 
 }  // namespace gaussmesh

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/give_back_memory.h"
 #include "core/parallel.h"
 #include "gaussmesh/error.h"
 
@@ -16,40 +17,47 @@ struct RootOnEdge {
   std::int8_t side = 0;
 };
 
+/// A brick, and what is joined with that of others.
+struct BuiltBrick {
+  Brick brick;
+  std::vector<SurfaceCell> cells;
+  std::vector<RootOnEdge> roots;  ///< by cell and axis
+  std::vector<std::size_t> boxes_by_level;
+};
+
 /// Fills one brick. Keeps the buffers of its stages: one for each thread.
 class BrickBuilder {
  public:
   BrickBuilder(const GaussianField& field, const Lattice& lattice)
       : lattice_(lattice), walker_(field, lattice), finder_(field, lattice) {}
 
-  /// @param roots  gets those of the brick, by cell and axis
-  Brick build(const BrickIndex& index, std::vector<RootOnEdge>& roots) {
-    roots_ = &roots;
-    Brick brick;
+  BuiltBrick build(const BrickIndex& index) {
+    BuiltBrick result;
+    Brick& brick = result.brick;
     brick.index = index;
-    brick.boxes_by_level = walker_.boxes_by_level();
-    walker_.walk(index, [&](const BrickWalker::Cell& cell) { add_cell(brick, cell); });
-    std::sort(brick.cells.begin(), brick.cells.end(),
+    result.boxes_by_level = walker_.boxes_by_level();
+    walker_.walk(index, [&](const BrickWalker::Cell& cell) { add_cell(cell, result); });
+    std::sort(result.cells.begin(), result.cells.end(),
               [](const SurfaceCell& a, const SurfaceCell& b) { return a.local < b.local; });
-    for (const SurfaceCell& cell : brick.cells) brick.occupied[cell.local / 64] |= 1ull << (cell.local % 64);
+    for (const SurfaceCell& cell : result.cells) brick.occupied[cell.local / 64] |= 1ull << (cell.local % 64);
     for (std::size_t w = 1; w < brick.rank.size(); ++w) {
       brick.rank[w] = static_cast<std::uint16_t>(brick.rank[w - 1] + std::popcount(brick.occupied[w - 1]));
     }
-    for (std::size_t i = 0; i < brick.boxes_by_level.size(); ++i) {
-      brick.boxes_by_level[i] = walker_.boxes_by_level()[i] - brick.boxes_by_level[i];
+    for (std::size_t i = 0; i < result.boxes_by_level.size(); ++i) {
+      result.boxes_by_level[i] = walker_.boxes_by_level()[i] - result.boxes_by_level[i];
     }
-    brick.cells.shrink_to_fit();
-    roots.shrink_to_fit();
-    return brick;
+    result.cells.shrink_to_fit();
+    result.roots.shrink_to_fit();
+    return result;
   }
 
  private:
-  void add_cell(Brick& brick, const BrickWalker::Cell& found) {
+  void add_cell(const BrickWalker::Cell& found, BuiltBrick& result) {
     const auto [i, j, k] = found.in_brick;
     SurfaceCell cell;
     cell.local = static_cast<std::uint16_t>(i + kBrickCells * (j + kBrickCells * k));
     cell.direction = found.certificate.direction;
-    cell.first_root = small_count<std::uint16_t>(roots_->size(), "roots in a brick");
+    cell.first_root = small_count<std::uint16_t>(result.roots.size(), "roots in a brick");
     const CoordPoint lo = lattice_.point(found.lo);
     for (int axis = 0; axis < 3; ++axis) {
       cell.face[axis].certificate = face_certificate(found, axis);
@@ -63,10 +71,10 @@ class BrickBuilder {
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       cell.root_count[axis] = small_count<std::uint8_t>(roots.size(), "roots on an edge");
       for (const EdgeRoot& root : roots) {
-        roots_->push_back({root.point.position[axis], root.point.normal, root.side});
+        result.roots.push_back({root.point.position[axis], root.point.normal, root.side});
       }
     }
-    brick.cells.push_back(cell);
+    result.cells.push_back(cell);
   }
 
   /// The low face of a cell across `axis`: single-valued along axes of the cell that lie in it.
@@ -85,7 +93,6 @@ class BrickBuilder {
   const Lattice& lattice_;
   BrickWalker walker_;
   EdgeRootFinder finder_;
-  std::vector<RootOnEdge>* roots_ = nullptr;
 };
 
 FineIndex lowest_corner(const BrickIndex& brick, int local) {
@@ -104,29 +111,32 @@ std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
 
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);
-  std::vector<Brick> all(found.size());
-  std::vector<std::vector<RootOnEdge>> roots(found.size());
+  std::vector<BuiltBrick> all(found.size());
   parallel_for_workers(found.size(), threads, 1, [&] {
-    return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable {
-      all[i] = builder.build(found[i], roots[i]);
-    };
+    return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };
   });
+  std::erase_if(all, [](const BuiltBrick& built) { return built.cells.empty(); });
   std::uint32_t vertices = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].first_vertex = vertices;
-    vertices += static_cast<std::uint32_t>(roots[i].size());
+  std::vector<std::size_t> first_cell{0};
+  for (BuiltBrick& built : all) {
+    built.brick.first_vertex = vertices;
+    vertices += static_cast<std::uint32_t>(built.roots.size());
+    first_cell.push_back(first_cell.back() + built.cells.size());
   }
+  cells_.resize(first_cell.back());
   roots_.reserve(vertices + vertices / 16);  // the other vertices come behind, without a second array
   roots_.resize(vertices);
   rises_.resize(vertices);
   parallel_for(all.size(), threads, [&](std::size_t i) {
-    const Brick& brick = all[i];
+    Brick& brick = all[i].brick;
+    brick.cells = {cells_.data() + first_cell[i], all[i].cells.size()};
+    std::copy(all[i].cells.begin(), all[i].cells.end(), brick.cells.begin());
     for (const SurfaceCell& cell : brick.cells) {
       const CoordPoint corner = lattice.point(gaussmesh::lowest_corner(brick.index, cell.local));
       std::uint32_t n = cell.first_root;
       for (int axis = 0; axis < 3; ++axis) {
         for (int j = 0; j < cell.root_count[axis]; ++j, ++n) {
-          const RootOnEdge& root = roots[i][n];
+          const RootOnEdge& root = all[i].roots[n];
           SurfacePoint& point = roots_[brick.first_vertex + n];
           point.position = corner;
           point.position[axis] = root.at;
@@ -135,13 +145,29 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
         }
       }
     }
-    roots[i] = std::vector<RootOnEdge>();
+    all[i].roots = std::vector<RootOnEdge>();
+    all[i].cells = std::vector<SurfaceCell>();
   });
-  for (Brick& brick : all) {
-    if (brick.cells.empty()) continue;
-    numbers_.insert(brick.index);
-    bricks_.push_back(std::move(brick));
+  bricks_.reserve(all.size());
+  for (BuiltBrick& built : all) {
+    numbers_.insert(built.brick.index);
+    bricks_.push_back(std::move(built.brick));
+    boxes_by_level_.resize(std::max(boxes_by_level_.size(), built.boxes_by_level.size()));
+    for (std::size_t i = 0; i < built.boxes_by_level.size(); ++i) boxes_by_level_[i] += built.boxes_by_level[i];
   }
+  all = std::vector<BuiltBrick>();
+  give_back_memory();
+}
+
+void CellStore::set_links(std::vector<std::vector<Link>> by_brick, int threads) {
+  std::vector<std::size_t> first{0};
+  for (const std::vector<Link>& links : by_brick) first.push_back(first.back() + links.size());
+  links_.resize(first.back());
+  parallel_for(bricks_.size(), threads, [&](std::size_t i) {
+    std::copy(by_brick[i].begin(), by_brick[i].end(), links_.data() + first[i]);
+    bricks_[i].links = {links_.data() + first[i], by_brick[i].size()};
+    by_brick[i] = std::vector<Link>();
+  });
 }
 
 std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32_t hint) const {

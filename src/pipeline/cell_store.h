@@ -61,21 +61,28 @@ struct Brick {
   BrickIndex index{};
   std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
   std::array<std::uint16_t, 8> rank{};       ///< cells in the words of `occupied` before
-  std::vector<SurfaceCell> cells;            ///< by `local`
-  std::vector<Link> links;
+  std::span<SurfaceCell> cells;              ///< by `local`
+  std::span<const Link> links;
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
-  std::vector<std::size_t> boxes_by_level;
 };
 
-/// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell.
+/// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell. What bricks have
+/// many of is in one array for all of them: that is given back to the system at once when it is done with.
 class CellStore {
  public:
   /// Finds the cells, their certificates, the certificates of their faces and the roots on their edges.
   CellStore(const GaussianField& field, const Lattice& lattice, int threads);
+  CellStore(const CellStore&) = delete;  // bricks point to the arrays
+  CellStore& operator=(const CellStore&) = delete;
+
+  /// Takes the curves in the faces, by brick and, as their cells count them, by cell and axis.
+  void set_links(std::vector<std::vector<Link>> by_brick, int threads);
 
   /// Gives all cells and curves back, when nobody asks for them any more. @return the roots, which are vertices
   std::vector<SurfacePoint> release_roots() {
     bricks_ = std::vector<Brick>();
+    cells_ = std::vector<SurfaceCell>();
+    links_ = std::vector<Link>();
     numbers_ = {};
     rises_ = std::vector<std::int8_t>();
     return std::move(roots_);
@@ -103,6 +110,9 @@ class CellStore {
   /// The links in a face.
   std::span<const Link> face_links(const Place& place, int axis) const;
 
+  /// Boxes looked at in the bricks that have cells: cells, then sub-boxes of cells, halving.
+  const std::vector<std::size_t>& boxes_by_level() const { return boxes_by_level_; }
+
   std::uint32_t root_vertices() const { return static_cast<std::uint32_t>(roots_.size()); }
 
  private:
@@ -110,9 +120,12 @@ class CellStore {
     std::size_t operator()(const BrickIndex& b) const;
   };
   std::vector<Brick> bricks_;
+  std::vector<SurfaceCell> cells_;           ///< by brick
+  std::vector<Link> links_;                  ///< by brick
   KeyIndex<BrickIndex, IndexHash> numbers_;  ///< of bricks_
   std::vector<SurfacePoint> roots_;
   std::vector<std::int8_t> rises_;
+  std::vector<std::size_t> boxes_by_level_;
 };
 
 }  // namespace gaussmesh

@@ -249,6 +249,7 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
     throw CannotMeshError("tolerance: asked for " + number_text(options.tolerance) + " A, reached " +
                           number_text(*report.surface_distance, 3) + " A; choose a smaller spacing too");
   }
+  give_back_memory();  // what the judge took
   report.vertex_distance_max =
       vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;
   if (!(report.vertex_distance_max <= kVertexTolerance)) {

@@ -27,11 +27,8 @@ Lattice make_lattice(double spacing, const Vec3& fractions) {
 }
 
 void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult& result) {
-  for (const Brick& brick : store.bricks()) {
-    result.boxes_by_level.resize(std::max(result.boxes_by_level.size(), brick.boxes_by_level.size()));
-    for (std::size_t i = 0; i < brick.boxes_by_level.size(); ++i) result.boxes_by_level[i] += brick.boxes_by_level[i];
-    result.cells += brick.cells.size();
-  }
+  result.boxes_by_level = store.boxes_by_level();
+  for (const Brick& brick : store.bricks()) result.cells += brick.cells.size();
   result.bricks = store.bricks().size();
   while (!result.boxes_by_level.empty() && result.boxes_by_level.back() == 0) result.boxes_by_level.pop_back();
   const int halvings = static_cast<int>(result.boxes_by_level.size()) - 1;
