@@ -166,15 +166,19 @@ class CellPatcher {
   void patch_cell(const CellStore::Place& place, Result& result) {
     const SurfaceCell& cell = store_.cell(place);
     const std::size_t before = result.triangles.size();
-    if (!cell.split) patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, result);
+    if (!cell.split) patch({store_.lowest_corner(place), 0}, cell.direction, place.brick, 0, result);
     result.counts.push_back(small_count<std::uint16_t>(result.triangles.size() - before, "triangles in a cell"));
   }
 
-  void patch_leaf(const LeafCell& leaf, Result& result) { patch(leaf.key, leaf.direction, 0, result); }
+  void patch_leaf(const LeafCell& leaf, Result& result) {
+    patch(leaf.key, leaf.direction, 0, leaf.empty_faces, result);
+  }
 
  private:
-  void patch(const CellKey& key, const Direction& direction, std::uint32_t hint, Result& result) {
-    const std::span<const Loop> loops = collector_.collect(key, hint);
+  /// @param hint, empty_faces  as LoopCollector takes them
+  void patch(const CellKey& key, const Direction& direction, std::uint32_t hint, unsigned empty_faces,
+             Result& result) {
+    const std::span<const Loop> loops = collector_.collect(key, hint, empty_faces);
     if (loops.empty()) return;
     const Patch& patch =
         direction.sign != 0

@@ -187,7 +187,7 @@ class FoldSearch {
       }
       const auto leaf = leaves_.find(child);
       if (leaf == leaves_.end()) continue;
-      for (const Loop& loop : collector.collect(child, 0)) {
+      for (const Loop& loop : collector.collect(child, 0, leaf->second->empty_faces)) {
         if (!goes_round_surface(*leaf->second, loop)) return false;
         std::vector<Link> links;
         for (std::size_t i = 0; i < loop.size(); ++i) {

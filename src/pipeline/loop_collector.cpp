@@ -6,11 +6,14 @@
 
 namespace gaussmesh {
 
-std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t hint) {
+std::span<const Loop> LoopCollector::collect(const CellKey& key, std::uint32_t hint, unsigned empty_faces) {
   links_.clear();
-  for (int k = 0; k < 3; ++k) {
-    collect_links(k, key.lo, key.level, hint, false);
-    collect_links(k, moved(key.lo, k, fine_size(key.level)), key.level, hint, true);
+  for (int face = 0; face < 6; ++face) {
+    if (empty_faces >> face & 1) continue;
+    const int axis = face / 2;
+    const bool is_high = face % 2 == 1;
+    const FineIndex lo = is_high ? moved(key.lo, axis, fine_size(key.level)) : key.lo;
+    collect_links(axis, lo, key.level, hint, is_high);
   }
   build_loops(lattice_.point(key.lo), lattice_.point(cell_hi(key)));
   return {loops_.data(), loop_count_};

@@ -16,10 +16,11 @@ class LoopCollector {
                 const TracedVertices& vertices)
       : lattice_(lattice), store_(store), split_(split), vertices_(vertices) {}
 
-  /// @param hint  a brick near the cell
-  /// @return      the loops, counter-clockwise round the surface seen from the solvent; valid until the next call
+  /// @param hint         a brick near the cell
+  /// @param empty_faces  as in LeafCell: those that need not be looked at
+  /// @return the loops, counter-clockwise round the surface seen from the solvent; valid until the next call
   /// @throws LatticeDegenerate if curves do not close
-  std::span<const Loop> collect(const CellKey& key, std::uint32_t hint);
+  std::span<const Loop> collect(const CellKey& key, std::uint32_t hint, unsigned empty_faces = 0);
 
   /// The links that the loops of the last call are made of.
   std::span<const Link> links() const { return links_; }

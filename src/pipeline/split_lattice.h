@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/key_index.h"
+#include "field/local_atoms.h"
 #include "patch/fold_triangulator.h"
 #include "pipeline/traced_vertices.h"
 
@@ -27,6 +28,7 @@ struct LeafCell {
   CellKey key;
   Direction direction;           ///< none: cut along folds
   std::uint8_t single_axes = 0;  ///< as in CellCertificate
+  std::uint8_t empty_faces = 0;  ///< bit 2 k + s: no surface in the face across axis k on the low (s = 0) or high side
 
   LeafCell(const CellKey& of_key, const Direction& of_direction, unsigned of_single_axes)
       : key(of_key), direction(of_direction), single_axes(static_cast<std::uint8_t>(of_single_axes)) {}
@@ -115,10 +117,16 @@ class SplitLattice {
     std::uint32_t link_count = 0;
     VertexRange vertices;  ///< inside the face
   };
-  /// Edges or faces with numbers first .. last - 1, of a leaf in a split cell.
+  /// What is at hand of a split cell while its edges and faces are looked at.
+  struct CellWork {
+    explicit CellWork(const GaussianField& field) : atoms(field) {}
+    LocalAtoms atoms;
+    std::vector<LocalModel> models;          ///< of its leaves
+    std::vector<std::uint16_t> free_edges;   ///< of its leaves: bit 4 axis + corner: no surface on the edge
+  };
+  /// Edges or faces with numbers first .. last - 1, that a leaf of a split cell was the first to ask for.
   struct Task {
-    CellKey cell;
-    CellKey leaf;
+    std::uint32_t leaf = 0;
     std::uint32_t first = 0;
     std::uint32_t last = 0;
   };
@@ -128,11 +136,11 @@ class SplitLattice {
   struct Wanted {
     LatticeKeys keys;
     std::vector<std::uint8_t> known;  ///< by number: all that the leaves know of it, in bits
-    std::vector<Task> tasks;
+    std::vector<std::vector<Task>> tasks;  ///< by cell
   };
 
   /// @param found  those that are not wanted any more
-  /// @param visit  called with each leaf and ask(key, known), on several threads
+  /// @param visit  called with the numbers of cell and leaf, the leaf, and ask(key, known), on several threads
   template <typename Visit>
   static Wanted list_wanted(std::span<const SplitCell> cells, const LatticeKeys& found, int threads,
                             const Visit& visit);
@@ -145,11 +153,15 @@ class SplitLattice {
   void mark_changed_beside(const CellKey& key);
   static std::array<CellKey, 6> cells_beside(const CellKey& key);
   unsigned fold_axes(const LatticeKey& face) const;
-  void find_edge_roots(std::span<const SplitCell> cells, int threads);
-  void trace_faces(std::span<const SplitCell> cells, int threads);
+  void prepare(SplitCell& cell, CellWork& work) const;
+  void find_edge_roots(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
+  void trace_faces(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
   void add_roots_on(int axis, const FineIndex& lo, int level, int side, std::vector<FaceRoot>& roots) const;
-  void collect_face_roots(const LatticeKey& face, std::vector<FaceRoot>& roots) const;
+  /// @param free_edges  of the leaf that the face is of, as in CellWork
+  /// @param is_high     whether it is on the high side of that
+  void collect_face_roots(const LatticeKey& face, unsigned free_edges, bool is_high,
+                          std::vector<FaceRoot>& roots) const;
 
   const GaussianField& field_;
   const Lattice& lattice_;
