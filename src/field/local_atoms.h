@@ -44,6 +44,9 @@ class LocalAtoms {
     const double cut = kCuts[static_cast<std::size_t>(reach)];
     if (around_) {
       atoms.restrict_from(around_->within(reach), box_, field_.decay(), cut);
+    } else if (reach == Reach::kProof) {
+      // Atoms are left out one by one: by nodes, as from the field, too many of them would count as at the cut.
+      atoms.restrict_from(within(Reach::kPlain), box_, field_.decay(), cut);
     } else {
       field_.collect_near(box_, atoms, cut);
     }

@@ -45,6 +45,28 @@ Extremes extremes_of(const double* values, std::size_t n) {
   return {least, largest};
 }
 
+/// Exponents below this count as this: e^-600 = 1e-261.
+constexpr double kLeastExponent = -600.0;
+
+/// Over exponents E below -cut: the sums of e^E and of e^E max(w - E, 1/2).
+struct LeftOutSums {
+  double weight, weight_times_distance;
+};
+
+GAUSSMESH_SIMD_CLONES
+LeftOutSums sum_left_out(const double* exponent, std::size_t n, double cut, double w) {
+  double weight = 0.0, times_distance = 0.0;
+#pragma omp simd reduction(+ : weight, times_distance)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double counted = exponent[i] < -cut ? exponent[i] : kLeastExponent;
+    const double e = counted > kLeastExponent ? counted : kLeastExponent;
+    const double a = vector_exp(e);
+    weight += a;
+    times_distance += a * std::max(w - e, 0.5);
+  }
+  return {weight, times_distance};
+}
+
 /// Over a box: the sum of what the weights of atoms can be at most, and the largest exponent that one has at least.
 struct DistanceSums {
   double largest, least_exponent;
@@ -128,6 +150,14 @@ void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
   tail_slope += 2.0 * std::sqrt(decay * std::max(largest_w + at_cut, 0.5)) * value * (1.0 + 1e-9);
 }
 
+void NearAtoms::add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay) {
+  const LeftOutSums sums = sum_left_out(exponent, n, cut, largest_w);
+  const double slack = 4e-15 * (2.0 * largest_w - kLeastExponent) + 1e-12;
+  const double factor = std::exp(slack) * (1.0 + 1e-9);
+  tail += factor * sums.weight;
+  tail_slope += factor * 2.0 * std::sqrt(decay * sums.weight) * std::sqrt(sums.weight_times_distance);
+}
+
 void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut) {
   clear();
   cut = new_cut;
@@ -145,7 +175,7 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
     kept[count] = static_cast<std::uint32_t>(i);
     count += exponent[i] >= -cut;
   }
-  add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, decay);
+  if (count < parent.size()) add_to_tail(exponent.data(), parent.padded(), parent.w_size, decay);
   take(parent, kept, count);
 }
 

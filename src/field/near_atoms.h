@@ -52,6 +52,11 @@ class NearAtoms : public WeightedCentres {
   /// out below -cut.
   void add_cut_to_tail(double count, double largest_w, double decay);
 
+  /// Accounts for the atoms left out of `n` with |log-weight| at most `largest_w`: those whose largest exponents are
+  /// below -cut. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with r from w - E = 1/2 on; the sum
+  /// of the slopes is at most 2 sqrt(d sum e^E sum (w - E) e^E), by Cauchy and Schwarz.
+  void add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay);
+
   /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with
   /// w - d dist^2 >= -new_cut. Cost: one pass over the parent's atoms, some 0.5 ns each.
   void restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut);
@@ -65,8 +70,8 @@ class NearAtoms : public WeightedCentres {
 /// Log-weight, relative to c, below which an atom is left out: e^-23 = 1e-10.
 inline constexpr double kTruncation = 23.0;
 
-/// The same for proofs, where the atoms left out are part of the bounds: e^-12 = 6e-6.
-inline constexpr double kProofTruncation = 12.0;
+/// The same for proofs, where the atoms left out are part of the bounds: e^-10 = 5e-5.
+inline constexpr double kProofTruncation = 10.0;
 
 /// The same where little things matter, in small cells near singular places: e^-40 = 4e-18.
 inline constexpr double kFineTruncation = 40.0;

@@ -65,10 +65,12 @@ class BrickTracer {
   /// it.
   FaceCertificate certificate_of(const CellStore::Place& place, int axis) const {
     const SurfaceCell& cell = store_.cell(place);
-    if (cell.face[axis].certificate != kFaceUncertified) return cell.face[axis].certificate;
+    const FaceCertificate own = cell.face[axis].certificate;
+    if (own != kFaceUncertified && own != kFaceNoClosedCurve) return own;
     const auto below = store_.find(moved(store_.lowest_corner(place), axis, -kFinePerCell), place.brick);
     if (!below) return kFaceEmpty;
-    return certificate_in_face(store_.cell(*below).single_axes(), axis);
+    const FaceCertificate along = certificate_in_face(store_.cell(*below).single_axes(), axis);
+    return along != kFaceUncertified ? along : own;
   }
 
   void move_to(std::uint32_t brick) {

@@ -17,49 +17,13 @@ constexpr Coord kSmallestRect = 100;
 /// than they seem: a thousand times what they are rounded by.
 constexpr Coord kClosestAcross = 1000;
 
-/// How often a rectangle is halved in search of an axis before it is cut.
-constexpr int kProofHalvings = 3;
-
 /// Slanted directions that are tried for a face.
 constexpr int kMostDirections = 6;
 
 /// Rounds of refinement before polygons that still cross count as a failure; each halves every piece.
 constexpr int kMaxRefinements = 8;
 
-FaceCertificate certificate_from(unsigned directions, int axis) {
-  return directions == kAllDirections ? kFaceEmpty : certificate_in_face(axes_of(directions), axis);
-}
-
-using Quarters = std::array<Box, 4>;
-
-/// The four parts of a face across `axis`.
-Quarters quarters_of(const Box& face, int axis) {
-  const int a = first_axis(axis), b = second_axis(axis);
-  Quarters quarters;
-  for (int part = 0; part < 4; ++part) {
-    quarters[part] = face;
-    (part & 1 ? quarters[part].lo : quarters[part].hi)[a] = 0.5 * (face.lo[a] + face.hi[a]);
-    (part & 2 ? quarters[part].lo : quarters[part].hi)[b] = 0.5 * (face.lo[b] + face.hi[b]);
-  }
-  return quarters;
-}
-
 }  // namespace
-
-FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face) {
-  const FaceCertificate whole = certificate_from(model.over(face).directions(), axis);
-  if (whole != kFaceUncertified) return whole;
-  // Quarters of it may all be empty or single-valued along the same axis.
-  const PartProofs quarters = model.prove(quarters_of(face, axis));
-  unsigned axes = 7;
-  bool is_empty = true;
-  for (int part = 0; part < 4; ++part) {
-    if (quarters.directions[part] == kAllDirections) continue;
-    is_empty = false;
-    axes &= axes_of(quarters.directions[part]);
-  }
-  return is_empty ? kFaceEmpty : certificate_in_face(axes, axis);
-}
 
 PlanePoint FaceTracer::plane(int point) const {
   const CoordPoint& p = points_[point].point.position;
@@ -115,7 +79,7 @@ const FaceCurves& FaceTracer::trace(int axis, const CoordPoint& lo, const CoordP
 }
 
 bool FaceTracer::is_one_chord(FaceCertificate certificate, std::span<const FaceRoot> roots) {
-  if (!(certificate & (kFaceAlongFirst | kFaceAlongSecond)) || roots.size() != 2) return false;
+  if (!(certificate & (kFaceAlongFirst | kFaceAlongSecond | kFaceNoClosedCurve)) || roots.size() != 2) return false;
   const FaceRoot &p = roots[0], &q = roots[1];
   return p.boundary_side != q.boundary_side &&
          starts_curve(p.boundary_side, p.rise) != starts_curve(q.boundary_side, q.rise);
@@ -135,10 +99,12 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
   }
   const auto pair_as = [&](FaceCertificate known) {
     return ((known & kFaceAlongFirst) && pair_roots(rect, along_axis(first_axis(axis_)), roots)) ||
-           ((known & kFaceAlongSecond) && pair_roots(rect, along_axis(second_axis(axis_)), roots));
+           ((known & kFaceAlongSecond) && pair_roots(rect, along_axis(second_axis(axis_)), roots)) ||
+           ((known & kFaceNoClosedCurve) && pair_only_curve(rect, roots));
   };
   if (pair_as(certificate)) return;
   const NearAtoms& atoms = proof_atoms_of(rect);
+  prover_.move_to(atoms, axis_);
   const Box box{to_angstrom(rect.lo), to_angstrom(rect.hi)};
   const LocalModel model(atoms, field_.decay(), box);
   const FaceCertificate closer = certify_face(model, axis_, box);
@@ -148,22 +114,39 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
   }
   if (pair_as(closer)) return;
   // Through parts of the rectangle, as cells are certified: cheaper than cutting it, which adds roots on the cuts.
+  if (roots.size() <= 2 && chords_will_do(rect, roots) && prover_.has_no_closed_curve(model)) {
+    pair_only_curve(rect, roots);
+    return;
+  }
   if (pair_along_slant(rect, model, roots)) return;
   const Vec3 gradient = model.over_all().middle_gradient();
   int axes[2] = {first_axis(axis_), second_axis(axis_)};
   if (std::abs(gradient[axes[0]]) < std::abs(gradient[axes[1]])) std::swap(axes[0], axes[1]);
   for (const int axis : axes) {
     const Direction along = along_axis(axis, gradient[axis] > 0.0 ? 1 : -1);
-    if (prove_along(atoms, model, along, kProofHalvings) && pair_roots(rect, along, roots)) return;
+    if (prover_.proves(model, along) && pair_roots(rect, along, roots)) return;
   }
   split_rect(rect, roots);
 }
 
-/// Where curves go from side to side and are single-valued along a slanted direction, all of them are chords.
-bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std::vector<RectRoot>& roots) {
+/// Whether nobody will ask for points between the roots, which are found along an axis.
+bool FaceTracer::chords_will_do(const Rect& rect, const std::vector<RectRoot>& roots) const {
   const bool is_whole = rect.lo == face_.lo && rect.hi == face_.hi;
   const bool turns_back = roots.size() == 2 && roots[0].side == roots[1].side;
-  if (!is_whole || turns_back || fold_axes_ != 0) return false;
+  return is_whole && !turns_back && fold_axes_ == 0;
+}
+
+/// Where no curve closes, two roots are the ends of the only one, and no roots mean that there is none.
+bool FaceTracer::pair_only_curve(const Rect& rect, const std::vector<RectRoot>& roots) {
+  if (roots.empty()) return true;
+  if (roots.size() != 2 || !chords_will_do(rect, roots)) return false;
+  link(rect, roots[0], roots[1], first_axis(axis_));
+  return true;
+}
+
+/// Where curves go from side to side and are single-valued along a slanted direction, all of them are chords.
+bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std::vector<RectRoot>& roots) {
+  if (!chords_will_do(rect, roots)) return false;
   cone_.clear();
   const auto add_to_cone = [&](Vec3 gradient) {
     gradient[axis_] = 0.0;
@@ -177,28 +160,10 @@ bool FaceTracer::pair_along_slant(const Rect& rect, const LocalModel& model, std
   for (int attempt = 0; attempt < kMostDirections && !cone_.empty(); ++attempt) {
     const Direction along = nearest_direction(cone_.middle());
     if (along.axis == axis_) return false;  // the gradients cancel, and nothing in the face is nearest
-    if (prove_along(proof_atoms_of(rect), model, along, kProofHalvings)) return pair_roots(rect, along, roots);
-    add_to_cone(refuting_gradient_);
+    if (prover_.proves(model, along)) return pair_roots(rect, along, roots);
+    add_to_cone(prover_.refuting_gradient());
   }
   return false;
-}
-
-bool FaceTracer::prove_along(const NearAtoms& atoms, const LocalModel& model, const Direction& along, int depth) {
-  const Quarters quarters = quarters_of(model.box(), axis_);
-  const unsigned proven = model.prove_along(quarters, along);
-  for (int part = 0; part < 4; ++part) {
-    if (proven >> part & 1) continue;
-    const LocalModel closer(atoms, field_.decay(), quarters[part]);
-    const LocalModel::View view = closer.over_all();
-    if (view.proves(along)) continue;
-    const Range slope = view.slope(along);
-    if (depth <= 1 || (along.sign > 0 ? slope.hi < 0.0 : slope.lo > 0.0)) {
-      refuting_gradient_ = view.middle_gradient();
-      return false;
-    }
-    if (!prove_along(atoms, closer, along, depth - 1)) return false;
-  }
-  return true;
 }
 
 bool FaceTracer::pair_roots(const Rect& rect, const Direction& along, std::vector<RectRoot>& roots) {
@@ -219,17 +184,17 @@ bool FaceTracer::pair_roots(const Rect& rect, const Direction& along, std::vecto
   for (std::size_t i = 0; along.is_slanted() && i < roots.size(); i += 2) {
     if (roots[i].side == roots[i + 1].side) return false;  // needs a point between them, which is found along an axis
   }
-  for (std::size_t i = 0; i < roots.size(); i += 2) {
-    if (starts_curve(roots[i]) == starts_curve(roots[i + 1])) throw LatticeDegenerate(to_angstrom(rect.lo));
-  }
-  for (std::size_t i = 0; i < roots.size(); i += 2) {
-    RectRoot from = roots[i], to = roots[i + 1];
-    if (!starts_curve(from)) std::swap(from, to);
-    points_[from.point].next = to.point;
-    points_[from.point].piece = static_cast<int>(pieces_.size());
-    pieces_.push_back({rect, along.axis, Side::kUnknown, 0.0});
-  }
+  for (std::size_t i = 0; i < roots.size(); i += 2) link(rect, roots[i], roots[i + 1], along.axis);
   return true;
+}
+
+/// Two roots are the ends of a curve, which has an order between them along an axis, or a chord will do for it.
+void FaceTracer::link(const Rect& rect, RectRoot from, RectRoot to, int axis) {
+  if (starts_curve(from) == starts_curve(to)) throw LatticeDegenerate(to_angstrom(rect.lo));
+  if (!starts_curve(from)) std::swap(from, to);
+  points_[from.point].next = to.point;
+  points_[from.point].piece = static_cast<int>(pieces_.size());
+  pieces_.push_back({rect, axis, Side::kUnknown, 0.0});
 }
 
 std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo,

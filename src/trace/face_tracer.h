@@ -11,25 +11,9 @@
 #include "core/exact_plane.h"
 #include "field/local_atoms.h"
 #include "roots/edge_roots.h"
+#include "trace/face_certificate.h"
 
 namespace gaussmesh {
-
-/// What bounds say of the section of the surface with a face.
-enum FaceCertificate : std::uint8_t {
-  kFaceUncertified = 0,
-  kFaceAlongFirst = 1,   ///< single-valued along the first axis of the face ...
-  kFaceAlongSecond = 2,  ///< ... along the second; both bits may be set
-  kFaceEmpty = 4,        ///< no surface in the closed face
-};
-
-/// Certificate of a face from a model over a box that contains it.
-FaceCertificate certify_face(const LocalModel& model, int axis, const Box& face);
-
-/// What follows for the faces of a cell across `axis` from CellCertificate::single_axes.
-inline FaceCertificate certificate_in_face(unsigned single_axes, int axis) {
-  return static_cast<FaceCertificate>((single_axes >> first_axis(axis) & 1) * kFaceAlongFirst |
-                                      (single_axes >> second_axis(axis) & 1) * kFaceAlongSecond);
-}
 
 /// A root on the boundary of a face.
 struct FaceRoot {
@@ -66,7 +50,7 @@ struct FaceCurves {
 class FaceTracer {
  public:
   FaceTracer(const GaussianField& field, const Lattice& lattice)
-      : field_(field), finder_(field, lattice), atoms_(field) {}
+      : field_(field), finder_(field, lattice), atoms_(field), prover_(field.decay()) {}
 
   /// Atoms for the faces to come are taken from those of `around`, a box round them, and not from the field; it
   /// lives and stays where it is as long as they are traced.
@@ -112,8 +96,10 @@ class FaceTracer {
 
   void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
   bool pair_roots(const Rect& rect, const Direction& along, std::vector<RectRoot>& roots);
+  bool pair_only_curve(const Rect& rect, const std::vector<RectRoot>& roots);
+  bool chords_will_do(const Rect& rect, const std::vector<RectRoot>& roots) const;
+  void link(const Rect& rect, RectRoot from, RectRoot to, int axis);
   bool pair_along_slant(const Rect& rect, const LocalModel& model, std::vector<RectRoot>& roots);
-  bool prove_along(const NearAtoms& atoms, const LocalModel& model, const Direction& along, int depth);
   void split_rect(const Rect& rect, const std::vector<RectRoot>& roots);
   std::vector<RectRoot> cut_roots(const NearAtoms& atoms, int edge_axis, const CoordPoint& lo, Coord hi);
   void collect_chains(std::span<const FaceRoot> roots);
@@ -138,7 +124,7 @@ class FaceTracer {
   }
   PlanePoint plane(int point) const;
   int length_of(const Chain& chain) const;
-  /// Whether the face has one curve, from side to side, for which a chord will do.
+  /// Whether the face has one curve, from side to side and no closed ones, for which a chord will do.
   static bool is_one_chord(FaceCertificate certificate, std::span<const FaceRoot> roots);
   static bool starts_curve(int side, int rise);
   bool starts_curve(const RectRoot& root) const;
@@ -151,7 +137,7 @@ class FaceTracer {
   int axis_ = 0;
   unsigned fold_axes_ = 0;
   Rect face_;
-  Vec3 refuting_gradient_{};  ///< in the part that ended the last proof that failed
+  FaceProver prover_;
   GradientCone cone_;
   std::vector<TracePoint> points_;
   std::vector<Piece> pieces_;
