@@ -175,7 +175,13 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
     kept[count] = static_cast<std::uint32_t>(i);
     count += exponent[i] >= -cut;
   }
-  if (count < parent.size()) add_to_tail(exponent.data(), parent.padded(), parent.w_size, decay);
+  // In lists for proofs, which leave out what counts a little, the exact sum pays.
+  constexpr double kSmallCut = 12.0;
+  if (cut > kSmallCut) {
+    add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, decay);
+  } else if (count < parent.size()) {
+    add_to_tail(exponent.data(), parent.padded(), parent.w_size, decay);
+  }
   take(parent, kept, count);
 }
 

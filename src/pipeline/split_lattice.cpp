@@ -26,7 +26,7 @@ constexpr int kLastPlainLevel = 3;
 
 /// Split cells whose edges and faces are looked at together: most of them turn out to have no surface, and are not
 /// kept.
-constexpr std::size_t kCellsAtOnce = 64;
+constexpr std::size_t kCellsAtOnce = 128;
 
 /// Split cells that a thread takes at a time where there is little to do for each.
 constexpr int kTasksAtOnce = 16;
