@@ -57,6 +57,11 @@ struct Lattice {
 /// Fine planes across a cell of the given level.
 inline constexpr std::int64_t fine_size(int level) { return kFinePerCell >> level; }
 
+/// The largest multiple of `size` that is not above n.
+inline constexpr std::int64_t round_down(std::int64_t n, std::int64_t size) {
+  return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
+}
+
 /// The box from lattice point `lo` to lattice point `hi`.
 inline Box lattice_box(const Lattice& lattice, const FineIndex& lo, const FineIndex& hi) {
   return {to_angstrom(lattice.point(lo)), to_angstrom(lattice.point(hi))};

@@ -66,8 +66,8 @@ struct Brick {
   std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
 };
 
-/// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell. What bricks have
-/// many of is in one array for all of them: that is given back to the system at once when it is done with.
+/// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell. What bricks
+/// have many of is in one array for all of them: that is given back to the system at once when it is done with.
 class CellStore {
  public:
   /// Finds the cells, their certificates, the certificates of their faces and the roots on their edges.

@@ -23,6 +23,13 @@ using FoldCellMap = std::unordered_map<CellKey, FoldCell, CellKeyHash>;
 /// Marks in the store which fold points the curves on faces of level 0 need.
 void mark_folds(const FoldCellMap& folds, CellStore& store);
 
+/// Down to this level cells are not smaller than the parts that proofs look at in cells of level 0, and their edges
+/// and faces take as many atoms; in smaller ones, near singular places, atoms left out may decide.
+inline constexpr int kLastPlainLevel = 3;
+
+/// The atoms that proofs in a cell of some level take.
+inline Reach proof_reach(int level) { return level <= kLastPlainLevel ? Reach::kProof : Reach::kFine; }
+
 /// A smaller cell with its certificate.
 struct LeafCell {
   CellKey key;
@@ -153,6 +160,8 @@ class SplitLattice {
   void mark_changed_beside(const CellKey& key);
   static std::array<CellKey, 6> cells_beside(const CellKey& key);
   unsigned fold_axes(const LatticeKey& face) const;
+  /// Finds roots and curves of the leaves of cells_ from an entry on.
+  void find_curves(std::size_t first_cell, int threads);
   void prepare(SplitCell& cell, CellWork& work) const;
   void find_edge_roots(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
   void trace_faces(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);

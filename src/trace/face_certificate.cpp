@@ -17,8 +17,8 @@ FaceCertificate certificate_from(unsigned directions, int axis) {
   return directions == kAllDirections ? kFaceEmpty : certificate_in_face(axes_of(directions), axis);
 }
 
-/// Which ways the gradient in a part of a face across `axis` does not point where phi = c: down and up the first axis, down
-/// and up the second, in the order of the bits.
+/// Which ways the gradient in a part of a face across `axis` does not point where phi = c: down and up the first axis,
+/// down and up the second, in the order of the bits.
 /// @param directions  as in PartProofs
 unsigned missed_by_gradient(unsigned directions, int axis) {
   if (directions == kAllDirections) return kAllWays;

@@ -94,3 +94,14 @@ TEST_CASE("a cell of the finest level is one step wide") {
   CHECK(fine_size(cell.level) == 1);
   CHECK(cell.lo == FineIndex{kFinePerCell - 1, kFinePerCell - 1, kFinePerCell - 1});
 }
+
+TEST_CASE("rounding down finds the cell below, on either side of zero") {
+  for (const std::int64_t size : {std::int64_t{1}, std::int64_t{8}, kFinePerCell}) {
+    for (std::int64_t n = -3 * size; n <= 3 * size; n += size > 8 ? size / 7 : 1) {
+      const std::int64_t low = round_down(n, size);
+      CHECK(low % size == 0);
+      CHECK(low <= n);
+      CHECK(n < low + size);
+    }
+  }
+}
