@@ -44,6 +44,15 @@ void mark_folds(const FoldCellMap& folds, CellStore& store) {
   }
 }
 
+SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store,
+                           const FoldCellMap& folds, TracedVertices& vertices)
+    : field_(field), lattice_(lattice), store_(store), folds_(folds), vertices_(vertices) {
+  for (const auto& [key, cell] : folds) {
+    fold_keys_.insert(key);
+    fold_axes_of_.push_back(fold_axes_of(cell));
+  }
+}
+
 void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
@@ -172,8 +181,8 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
     const CellKey beside{moved(face.lo(), face.axis, by), face.level};
     for (int level = 0; level <= face.level; ++level) {
       const CellKey key = cell_around(beside, level);
-      const auto it = folds_.find(key);
-      if (it != folds_.end() && !split_.contains(key)) axes |= fold_axes_of(it->second);
+      const auto number = fold_keys_.find(key);
+      if (number && !split_.contains(key)) axes |= fold_axes_of_[*number];
     }
   }
   return axes;

@@ -56,8 +56,7 @@ class SplitLattice {
  public:
   /// No cell is split at first. Vertices are added to `vertices`.
   SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store, const FoldCellMap& folds,
-               TracedVertices& vertices)
-      : field_(field), lattice_(lattice), store_(store), folds_(folds), vertices_(vertices) {}
+               TracedVertices& vertices);
 
   /// Splits cells that are of level 0 or leaves, each as often as it needs; cells in `folds` keep their size. Finds
   /// the roots and curves of the new leaves, unless there are uncertified places.
@@ -178,6 +177,8 @@ class SplitLattice {
   const FoldCellMap& folds_;
   TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
+  KeyIndex<CellKey, CellKeyHash> fold_keys_;  ///< of folds_, which many faces ask about
+  std::vector<unsigned> fold_axes_of_;        ///< by number in fold_keys_
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
