@@ -15,6 +15,9 @@ inline double gap(double p, double lo, double hi) { return std::max(0.0, std::ma
 /// Exponents are differences of numbers up to 1e12 (the limits of coordinates and radii): a slack for their rounding.
 inline double exponent_slack(double w, double decay_times_sq) { return 1e-15 * (std::abs(w) + decay_times_sq) + 1e-12; }
 
+/// The same of exponents down to -size, of atoms with |log-weight| at most `largest_w`.
+double exponents_slack(double largest_w, double size) { return 4e-15 * (2.0 * largest_w + size) + 1e-12; }
+
 /// Log-weight of the entries that fill up a vector: e^-1e30 is 0, and vector_exp() of it 1e-304, 1e-200 times less
 /// than any sum that it is added to.
 constexpr double kNoWeight = -1e30;
@@ -142,7 +145,7 @@ void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, doub
 void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
   if (count == 0.0) return;
   // Rounding of the exponents: those a little above the cut may be left out as well.
-  const double at_cut = cut - (4e-15 * (2.0 * largest_w + cut) + 1e-12);
+  const double at_cut = cut - exponents_slack(largest_w, cut);
   // The slope 2 d r e^E of an atom with exponent E = w - d r^2 < -at_cut is 2 sqrt(d (w - E)) e^E, which grows with
   // E up to w - E = 1/2.
   const double value = count * (std::exp(-at_cut) * (1.0 + 1e-9) + 1e-300);
@@ -152,8 +155,7 @@ void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
 
 void NearAtoms::add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay) {
   const LeftOutSums sums = sum_left_out(exponent, n, cut, largest_w);
-  const double slack = 4e-15 * (2.0 * largest_w - kLeastExponent) + 1e-12;
-  const double factor = std::exp(slack) * (1.0 + 1e-9);
+  const double factor = std::exp(exponents_slack(largest_w, -kLeastExponent)) * (1.0 + 1e-9);
   tail += factor * sums.weight;
   tail_slope += factor * 2.0 * std::sqrt(decay * sums.weight) * std::sqrt(sums.weight_times_distance);
 }

@@ -28,7 +28,7 @@ class BrickTracer {
   }
 
   /// Counts the links in a brick's cells, and changes nothing that other bricks are traced from.
-  BrickCurves trace(const Brick& brick, std::uint32_t brick_number) {
+  BrickCurves trace(Brick& brick, std::uint32_t brick_number) {
     move_to(brick_number);
     BrickCurves result;
     for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
@@ -266,7 +266,7 @@ class CellPatcher {
 
 void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore& store, TracedVertices& vertices,
                   int threads) {
-  const std::vector<Brick>& bricks = store.bricks();
+  std::vector<Brick>& bricks = store.bricks();
   std::vector<BrickCurves> curves(bricks.size());
   parallel_for_workers(bricks.size(), threads, 1, [&] {
     return [&, tracer = BrickTracer(field, lattice, store)](std::size_t i) mutable {

@@ -46,9 +46,9 @@ void mark_folds(const FoldCellMap& folds, CellStore& store) {
 
 SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, const CellStore& store,
                            const FoldCellMap& folds, TracedVertices& vertices)
-    : field_(field), lattice_(lattice), store_(store), folds_(folds), vertices_(vertices) {
+    : field_(field), lattice_(lattice), store_(store), vertices_(vertices) {
   for (const auto& [key, cell] : folds) {
-    fold_keys_.insert(key);
+    folds_.insert(key);
     fold_axes_of_.push_back(fold_axes_of(cell));
   }
 }
@@ -176,12 +176,12 @@ void SplitLattice::mark_cells(CellStore& store) const {
 
 unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
   unsigned axes = 0;
-  if (folds_.empty()) return axes;
+  if (folds_.size() == 0) return axes;
   for (const std::int64_t by : {std::int64_t{0}, -fine_size(face.level)}) {
     const CellKey beside{moved(face.lo(), face.axis, by), face.level};
     for (int level = 0; level <= face.level; ++level) {
       const CellKey key = cell_around(beside, level);
-      const auto number = fold_keys_.find(key);
+      const auto number = folds_.find(key);
       if (number && !split_.contains(key)) axes |= fold_axes_of_[*number];
     }
   }

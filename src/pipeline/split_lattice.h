@@ -174,11 +174,10 @@ class SplitLattice {
   const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
-  const FoldCellMap& folds_;
   TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
-  KeyIndex<CellKey, CellKeyHash> fold_keys_;  ///< of folds_, which many faces ask about
-  std::vector<unsigned> fold_axes_of_;        ///< by number in fold_keys_
+  KeyIndex<CellKey, CellKeyHash> folds_;  ///< the cells that keep their size, which many faces ask about
+  std::vector<unsigned> fold_axes_of_;    ///< by number in folds_
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;

@@ -79,7 +79,8 @@ bool FaceProver::proves(const LocalModel& model, const Direction& along, int dep
 }
 
 bool FaceProver::has_no_closed_curve(const LocalModel& model) const {
-  const PartProofs proofs = model.prove(quarters_of(model.box(), axis_));
+  const Quarters quarters = quarters_of(model.box(), axis_);
+  const PartProofs proofs = model.prove(quarters);
   int parts_that_miss[kWays] = {};
   for (int part = 0; part < 4; ++part) {
     const unsigned missed = missed_by_gradient(proofs.directions[part], axis_);
@@ -94,19 +95,19 @@ bool FaceProver::has_no_closed_curve(const LocalModel& model) const {
     return std::pair(-parts_that_miss[v], along[v]) < std::pair(-parts_that_miss[w], along[w]);
   });
   for (int i = 0; i < kMostWays; ++i) {
-    if (is_missed(model, 1u << order[i], kHalvings)) return true;
+    if (is_missed(quarters, proofs, 1u << order[i], kHalvings)) return true;
   }
   return false;
 }
 
-bool FaceProver::is_missed(const LocalModel& model, unsigned way, int depth) const {
-  const Quarters quarters = quarters_of(model.box(), axis_);
-  const PartProofs proofs = model.prove(quarters);
+bool FaceProver::is_missed(const Quarters& quarters, const PartProofs& proofs, unsigned way, int depth) const {
   for (int part = 0; part < 4; ++part) {
     if (missed_by_gradient(proofs.directions[part], axis_) & way) continue;
     const LocalModel closer(*atoms_, decay_, quarters[part]);
     if (missed_by_gradient(closer.over_all().directions(), axis_) & way) continue;
-    if (depth <= 1 || !is_missed(closer, way, depth - 1)) return false;
+    if (depth <= 1) return false;
+    const Quarters smaller = quarters_of(quarters[part], axis_);
+    if (!is_missed(smaller, closer.prove(smaller), way, depth - 1)) return false;
   }
   return true;
 }

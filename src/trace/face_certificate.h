@@ -3,6 +3,7 @@
 // Following the curves in it is face_tracer.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "field/local_model.h"
@@ -26,6 +27,10 @@ inline FaceCertificate certificate_in_face(unsigned single_axes, int axis) {
   return static_cast<FaceCertificate>((single_axes >> first_axis(axis) & 1) * kFaceAlongFirst |
                                       (single_axes >> second_axis(axis) & 1) * kFaceAlongSecond);
 }
+
+/// The four parts of a face across `axis`.
+using Quarters = std::array<Box, 4>;
+Quarters quarters_of(const Box& face, int axis);
 
 /// Proves more of a face, looking closer through parts of it.
 class FaceProver {
@@ -56,16 +61,13 @@ class FaceProver {
   static constexpr int kHalvings = 3;  ///< how often a face is halved for a proof
 
   bool proves(const LocalModel& model, const Direction& along, int depth);
-  bool is_missed(const LocalModel& model, unsigned way, int depth) const;
+  /// Whether the gradient misses a way in all quarters, of which `proofs` tells what the model itself shows.
+  bool is_missed(const Quarters& quarters, const PartProofs& proofs, unsigned way, int depth) const;
 
   double decay_;
   const NearAtoms* atoms_ = nullptr;
   int axis_ = 0;
   Vec3 refuting_gradient_{};
 };
-
-/// The four parts of a face across `axis`.
-using Quarters = std::array<Box, 4>;
-Quarters quarters_of(const Box& face, int axis);
 
 }  // namespace gaussmesh

@@ -203,6 +203,20 @@ int FaceTracer::insert_turning_point(int from) {
   return insert_between(from, middle);
 }
 
+template <typename Visit>
+void FaceTracer::visit_sides(const Chain& chain, const Visit& visit) const {
+  int start = chain.first;
+  while (!points_[start].kept) start = points_[start].next;
+  int from = start;
+  for (int p = points_[start].next; p >= 0; p = points_[p].next) {
+    if (points_[p].kept) {
+      visit(from, p);
+      from = p;
+    }
+    if (p == start) break;
+  }
+}
+
 bool FaceTracer::polygons_cross() const {
   struct Segment {
     PlanePoint p, q;
@@ -210,16 +224,7 @@ bool FaceTracer::polygons_cross() const {
   };
   std::vector<Segment> sides;
   for (const Chain& chain : chains_) {
-    int start = chain.first;
-    while (!points_[start].kept) start = points_[start].next;
-    int from = start;
-    for (int p = points_[start].next; p >= 0; p = points_[p].next) {
-      if (points_[p].kept) {
-        sides.push_back({plane(from), plane(p), from, p});
-        from = p;
-      }
-      if (p == start) break;
-    }
+    visit_sides(chain, [&](int from, int to) { sides.push_back({plane(from), plane(to), from, to}); });
   }
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i].p == sides[i].q) return true;
@@ -259,16 +264,7 @@ void FaceTracer::emit() {
     curves_.points.push_back(p.point);
   }
   for (const Chain& chain : chains_) {
-    int start = chain.first;
-    while (!points_[start].kept) start = points_[start].next;
-    int from = start;
-    for (int p = points_[start].next; p >= 0; p = points_[p].next) {
-      if (points_[p].kept) {
-        curves_.links.push_back({points_[from].vertex, points_[p].vertex});
-        from = p;
-      }
-      if (p == start) break;
-    }
+    visit_sides(chain, [&](int from, int to) { curves_.links.push_back({points_[from].vertex, points_[to].vertex}); });
   }
 }
 

@@ -107,8 +107,8 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
   }
   if (pair_as(closer)) return;
   // Through parts of the rectangle, as cells are certified: cheaper than cutting it, which adds roots on the cuts.
-  if (roots.size() <= 2 && chords_will_do(rect, roots) && prover_.has_no_closed_curve(model)) {
-    pair_only_curve(rect, roots);
+  if (roots.size() <= 2 && chords_will_do(rect, roots) && prover_.has_no_closed_curve(model) &&
+      pair_only_curve(rect, roots)) {
     return;
   }
   if (pair_along_slant(rect, model, roots)) return;

@@ -42,8 +42,8 @@ struct FaceCurves {
 /// Follows the section curves of a face from root to root [CL11].
 ///
 /// Where the face has a certificate along an axis m, the section is a graph over the other axis o, over disjoint
-/// intervals; the roots in order of o are their ends, two by two. A slanted direction serves as well where chords will
-/// do. A face without either is cut in four, and so on: the pieces are joined through the roots on the cuts, and curves
+/// intervals; the roots in order of o are their ends, two by two. Where chords will do, a slanted direction serves as
+/// well, and so does it that no curve closes, if there are two roots or none. Other faces are cut in four, and so on: the pieces are joined through the roots on the cuts, and curves
 /// that close inside the face are found too. Curves become chords between their ends; a curve that turns back to the
 /// edge it came from keeps its turning point - the fold point - and more points are kept where polygons would cross.
 /// Keeps buffers: one for each thread.
@@ -124,6 +124,9 @@ class FaceTracer {
   }
   PlanePoint plane(int point) const;
   int length_of(const Chain& chain) const;
+  /// Calls visit(from, to) for every two points that are kept and follow each other.
+  template <typename Visit>
+  void visit_sides(const Chain& chain, const Visit& visit) const;
   /// Whether the face has one curve, from side to side and no closed ones, for which a chord will do.
   static bool is_one_chord(FaceCertificate certificate, std::span<const FaceRoot> roots);
   static bool starts_curve(int side, int rise);

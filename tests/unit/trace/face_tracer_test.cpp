@@ -5,6 +5,7 @@
 #include <set>
 
 #include "catch2.h"
+#include "core/lattice_degenerate.h"
 #include "support/fields.h"
 #include "support/lattices.h"
 
@@ -384,4 +385,19 @@ TEST_CASE("faces of clouds: every root ends one curve with the molecule on its l
   CHECK(links > 300);
   CHECK(inner > 100);
   CHECK(many > 10);
+}
+
+TEST_CASE("a root without another end of its curve is degenerate, not left out") {
+  const GaussianField field({{0, 0, 0, 1.0, 0}}, 0.6, 1.0);
+  // Three quarters of a circle, which no direction makes single-valued, and which does not close.
+  const Face face = face_at(2, 0.0, -0.4, 2.0, -0.4, 2.0);
+  const Traced traced = trace(field, face);
+  REQUIRE(traced.roots.size() == 2);
+  for (std::size_t left = 0; left < 2; ++left) {
+    FaceTracer tracer(field, kLattice);
+    const std::span<const FaceRoot> one(&traced.roots[left], 1);
+    for (const FaceCertificate certificate : {kFaceUncertified, kFaceNoClosedCurve}) {
+      CHECK_THROWS_AS(tracer.trace(face.axis, face.lo, face.hi, certificate, one), LatticeDegenerate);
+    }
+  }
 }
