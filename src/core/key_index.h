@@ -1,6 +1,8 @@
 // Numbers for keys, in the order in which they come.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,7 +18,7 @@ class KeyIndex {
  public:
   /// The number of `key`, and whether it is a new one.
   std::pair<std::uint32_t, bool> insert(const Key& key) {
-    if (2 * (keys_.size() + 1) > slots_.size()) grow();
+    if (2 * (keys_.size() + 1) > slots_.size()) resize(std::max(kFewest, 2 * slots_.size()));
     std::uint32_t& slot = slots_[slot_of(key)];
     if (slot != kFree) return {slot, false};
     slot = static_cast<std::uint32_t>(keys_.size());
@@ -24,10 +26,17 @@ class KeyIndex {
     return {slot, true};
   }
 
-  /// Forgets the keys, and keeps the room that they had.
+  /// Makes room for as many keys, beyond which it grows.
+  void reserve(std::size_t keys) {
+    keys_.reserve(keys);
+    if (2 * keys > slots_.size()) resize(std::bit_ceil(2 * keys));
+  }
+
+  /// Forgets the keys, and keeps room for as many as there were.
   void clear() {
+    const std::size_t keys = keys_.size();
     keys_.clear();
-    slots_.clear();
+    slots_.assign(std::bit_ceil(std::max(kFewest, 2 * keys)), kFree);
   }
 
   std::optional<std::uint32_t> find(const Key& key) const {
@@ -42,6 +51,7 @@ class KeyIndex {
 
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+  static constexpr std::size_t kFewest = 16;  ///< slots, once there are any
 
   /// Where the key is, or the free slot where it belongs.
   std::size_t slot_of(const Key& key) const {
@@ -51,8 +61,8 @@ class KeyIndex {
     return slot;
   }
 
-  void grow() {
-    slots_.assign(slots_.empty() ? 16 : 2 * slots_.size(), kFree);
+  void resize(std::size_t slots) {
+    slots_.assign(slots, kFree);
     for (std::size_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = static_cast<std::uint32_t>(i);
   }
 

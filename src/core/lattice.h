@@ -57,10 +57,8 @@ struct Lattice {
 /// Fine planes across a cell of the given level.
 inline constexpr std::int64_t fine_size(int level) { return kFinePerCell >> level; }
 
-/// The largest multiple of `size` that is not above n.
-inline constexpr std::int64_t round_down(std::int64_t n, std::int64_t size) {
-  return n >= 0 ? n / size * size : -((-n + size - 1) / size * size);
-}
+/// The largest multiple of `size`, a power of two, that is not above n.
+inline constexpr std::int64_t round_down(std::int64_t n, std::int64_t size) { return n & -size; }
 
 /// The box from lattice point `lo` to lattice point `hi`.
 inline Box lattice_box(const Lattice& lattice, const FineIndex& lo, const FineIndex& hi) {
@@ -86,12 +84,23 @@ inline FineIndex cell_hi(const CellKey& cell) {
   return {cell.lo[0] + size, cell.lo[1] + size, cell.lo[2] + size};
 }
 
-struct CellKeyHash {
-  std::size_t operator()(const CellKey& key) const {
-    std::uint64_t h = static_cast<std::uint64_t>(key.level);
-    for (std::int64_t v : key.lo) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
-    return h ^ (h >> 32);
+/// A hash for what begins at corners of the lattice of some level, such as its cells: those in one cell of the level above
+/// are at neighbouring slots of a table, as they are asked for one after the other, and tables may be larger than caches.
+/// @tparam kinds  how many things begin at one corner
+template <unsigned kinds>
+std::size_t lattice_hash(const FineIndex& lo, int level, unsigned kind) {
+  const int shift = kMaxLevel - level;
+  std::uint64_t around = static_cast<std::uint64_t>(level);
+  std::size_t part = 0;
+  for (const std::int64_t v : lo) {
+    around = (around ^ static_cast<std::uint64_t>(v >> (shift + 1))) * 0x9E3779B97F4A7C15ull + (around >> 29);
+    part = 2 * part + static_cast<std::size_t>(v >> shift & 1);
   }
+  return 8 * kinds * (around ^ (around >> 32)) + kinds * part + kind;
+}
+
+struct CellKeyHash {
+  std::size_t operator()(const CellKey& key) const { return lattice_hash<1>(key.lo, key.level, 0); }
 };
 
 inline Box cell_box(const Lattice& lattice, const CellKey& cell) {

@@ -28,7 +28,8 @@ void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std:
     if (store_.cell(*place).face[axis].is_divided) return collect_parts(axis, lo, level, hint, high_side);
     links = store_.face_links(*place, axis);
   } else {
-    if (split_.is_divided(axis, lo, level)) return collect_parts(axis, lo, level, hint, high_side);
+    const CellKey beyond{high_side ? lo : moved(lo, axis, -fine_size(level)), level};
+    if (split_.is_split(beyond)) return collect_parts(axis, lo, level, hint, high_side);
     links = split_.face_links(axis, lo, level);
   }
   for (const Link& link : links) links_.push_back(high_side ? Link{link.to, link.from} : link);

@@ -86,6 +86,9 @@ SplitLattice::Wanted SplitLattice::list_wanted(std::span<const SplitCell> cells,
     };
   });
   Wanted all;
+  std::size_t most = 0;
+  for (const std::vector<Asked>& asked : by_cell) most += asked.size();
+  all.keys.reserve(most);
   all.tasks.resize(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     std::vector<Task>& tasks = all.tasks[i];
@@ -199,10 +202,6 @@ void SplitLattice::collect_face_roots(const LatticeKey& face, unsigned free_edge
   if (!(free_edges >> high_a & 1)) add_roots_on(b, moved(lo, a, size), face.level, 1, roots);
   if (!(free_edges >> high_b & 1)) add_roots_on(a, moved(lo, b, size), face.level, 2, roots);
   if (!(free_edges >> low_a & 1)) add_roots_on(b, lo, face.level, 3, roots);
-}
-
-bool SplitLattice::is_divided(int axis, const FineIndex& lo, int level) const {
-  return split_.contains({lo, level}) || split_.contains({moved(lo, axis, -fine_size(level)), level});
 }
 
 void SplitLattice::trace_faces(std::span<const SplitCell> cells, std::span<CellWork> work, int threads) {

@@ -48,8 +48,11 @@ SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, c
                            const FoldCellMap& folds, TracedVertices& vertices)
     : field_(field), lattice_(lattice), store_(store), vertices_(vertices) {
   for (const auto& [key, cell] : folds) {
-    folds_.insert(key);
-    fold_axes_of_.push_back(fold_axes_of(cell));
+    for (int level = 0; level <= key.level; ++level) {
+      const auto [number, is_new] = folds_.insert(cell_around(key, level));
+      if (is_new) fold_marks_.emplace_back();
+      if (level == key.level) fold_marks_[number] = {true, fold_axes_of(cell)};
+    }
   }
 }
 
@@ -174,6 +177,11 @@ void SplitLattice::mark_cells(CellStore& store) const {
   }
 }
 
+bool SplitLattice::is_fold_cell(const CellKey& key) const {
+  const auto number = folds_.find(key);
+  return number && fold_marks_[*number].is_fold_cell;
+}
+
 unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
   unsigned axes = 0;
   if (folds_.size() == 0) return axes;
@@ -182,7 +190,8 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
     for (int level = 0; level <= face.level; ++level) {
       const CellKey key = cell_around(beside, level);
       const auto number = folds_.find(key);
-      if (number && !split_.contains(key)) axes |= fold_axes_of_[*number];
+      if (!number) break;
+      if (fold_marks_[*number].axes != 0 && !split_.contains(key)) axes |= fold_marks_[*number].axes;
     }
   }
   return axes;
@@ -216,7 +225,7 @@ void SplitLattice::split_one(const CellKey& key, LocalAtoms& around, CellProver&
     const bool certified = certificate.kind == CellCertificate::Kind::kMonotone;
     if (certified) {
       branch.leaves.push_back({child, certificate.direction, certificate.single_axes});
-    } else if (folds_.contains(child)) {
+    } else if (is_fold_cell(child)) {
       branch.leaves.push_back({child, {}, 0});
     } else if (child.level < kMaxLevel) {
       LocalAtoms atoms(field_);

@@ -78,7 +78,7 @@ class SplitLattice {
   const std::vector<UncertifiedPlace>& uncertified() const { return uncertified_; }
   bool is_split(const CellKey& key) const { return split_.contains(key); }
 
-  bool is_divided(int axis, const FineIndex& lo, int level) const;
+  /// The curves on a face whose cells are both unsplit.
   std::span<const Link> face_links(int axis, const FineIndex& lo, int level) const;
 
  private:
@@ -110,7 +110,7 @@ class SplitLattice {
   };
   struct LatticeKeyHash {
     std::size_t operator()(const LatticeKey& key) const {
-      return CellKeyHash{}({key.lo(), 4 * key.level + key.axis});
+      return lattice_hash<3>(key.lo(), key.level, static_cast<unsigned>(key.axis));
     }
   };
   struct Branch {
@@ -122,6 +122,10 @@ class SplitLattice {
     std::uint32_t first_link = 0;
     std::uint32_t link_count = 0;
     VertexRange vertices;  ///< inside the face
+  };
+  struct FoldMark {
+    bool is_fold_cell = false;  ///< and not one round such a cell
+    unsigned axes = 0;          ///< along which its components are cut
   };
   /// What is at hand of a split cell while its edges and faces are looked at.
   struct CellWork {
@@ -158,6 +162,7 @@ class SplitLattice {
   std::optional<std::uint32_t> find_split_around(const CellKey& key) const;
   void mark_changed_beside(const CellKey& key);
   static std::array<CellKey, 6> cells_beside(const CellKey& key);
+  bool is_fold_cell(const CellKey& key) const;
   unsigned fold_axes(const LatticeKey& face) const;
   /// Finds roots and curves of the leaves of cells_ from an entry on.
   void find_curves(std::size_t first_cell, int threads);
@@ -176,8 +181,8 @@ class SplitLattice {
   const CellStore& store_;
   TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
-  KeyIndex<CellKey, CellKeyHash> folds_;  ///< the cells that keep their size, which many faces ask about
-  std::vector<unsigned> fold_axes_of_;    ///< by number in folds_
+  KeyIndex<CellKey, CellKeyHash> folds_;  ///< the cells that keep their size, which many faces ask about, and all round them
+  std::vector<FoldMark> fold_marks_;      ///< by number in folds_
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
