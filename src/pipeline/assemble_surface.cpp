@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "core/give_back_memory.h"
 #include "core/parallel.h"
@@ -33,6 +34,7 @@ class BrickTracer {
     BrickCurves result;
     for (std::uint32_t i = 0; i < brick.cells.size(); ++i) {
       brick.cells[i].first_link = small_count<std::uint16_t>(result.links.size(), "curve pieces in a brick");
+      find_next({brick_number, i});
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t before = result.links.size();
         trace_face({brick_number, i}, axis, result);
@@ -80,13 +82,17 @@ class BrickTracer {
     tracer_.take_atoms_from(atoms_);
   }
 
+  void find_next(const CellStore::Place& place) {
+    const FineIndex lo = store_.lowest_corner(place);
+    for (int axis = 0; axis < 3; ++axis) next_[axis] = store_.find(moved(lo, axis, kFinePerCell), place.brick);
+  }
+
   void collect_roots(const CellStore::Place& place, int axis) {
     roots_.clear();
     const int a = first_axis(axis), b = second_axis(axis);
     add_roots(place, a, 0);
-    const FineIndex lo = store_.lowest_corner(place);
-    if (const auto next = store_.find(moved(lo, a, kFinePerCell), place.brick)) add_roots(*next, b, 1);
-    if (const auto next = store_.find(moved(lo, b, kFinePerCell), place.brick)) add_roots(*next, a, 2);
+    if (next_[a]) add_roots(*next_[a], b, 1);
+    if (next_[b]) add_roots(*next_[b], a, 2);
     add_roots(place, b, 3);
   }
 
@@ -100,7 +106,8 @@ class BrickTracer {
   const Lattice& lattice_;
   const CellStore& store_;
   FaceTracer tracer_;
-  LocalAtoms atoms_;   ///< near the brick
+  LocalAtoms atoms_;  ///< near the brick
+  std::array<std::optional<CellStore::Place>, 3> next_;  ///< the cells beyond the one at hand, by axis
   std::vector<FaceRoot> roots_;
 };
 
