@@ -69,6 +69,22 @@ void parallel_for_chunks(std::size_t count, std::size_t size, int threads, const
   });
 }
 
+/// Resizes an array on all threads: the system gives memory when it is first written to, page by page, which takes longer
+/// than to fill it with zeros.
+template <typename T>
+void resize_in_parallel(std::vector<T>& array, std::size_t count, int threads) {
+  constexpr std::size_t kPage = 4096, kBytesAtOnce = 64 * kPage;
+  array.reserve(count);
+  if (count > array.size() && threads > 1) {
+    auto* const bytes = reinterpret_cast<volatile char*>(array.data() + array.size());
+    parallel_for_chunks((count - array.size()) * sizeof(T), kBytesAtOnce, threads,
+                        [&](std::size_t, std::size_t first, std::size_t last) {
+                          for (std::size_t i = first; i < last; i += kPage) bytes[i] = 0;
+                        });
+  }
+  array.resize(count);
+}
+
 /// Calls gather(first, last, list) for the same parts of 0 .. count - 1, each with a list of its own.
 /// @return the lists one after the other, in the order of the parts
 template <typename Entry, typename Gather>

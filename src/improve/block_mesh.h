@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/parallel.h"
 #include "improve/block_field.h"
 #include "improve/half_edge_mesh.h"
 #include "improve/vectors.h"
@@ -22,11 +23,10 @@ inline bool is_in(const Box& box, const Vec3& p) {
 /// Keeps the first entries of an array alone and makes room for others behind them, `count` in all: where few are kept,
 /// what they need is given back first.
 template <typename T>
-void resize_beyond(std::vector<T>& array, std::size_t kept, std::size_t count) {
+void resize_beyond(std::vector<T>& array, std::size_t kept, std::size_t count, int threads) {
   array.resize(kept);
   if (kept < array.capacity() / 2) array.shrink_to_fit();
-  array.reserve(count);
-  array.resize(count);
+  resize_in_parallel(array, count, threads);
 }
 
 /// What is known of vertices, as arrays that are numbered alike.
@@ -59,12 +59,12 @@ struct MeshVertices {
     refinement.push_back(from.refinement[v]);
   }
   /// Keeps the first ones alone and makes room for others behind them, `count` in all.
-  void resize_beyond(std::size_t kept, std::size_t count) {
-    gaussmesh::resize_beyond(at, kept, count);
-    gaussmesh::resize_beyond(normal, kept, count);
-    gaussmesh::resize_beyond(size, kept, count);
-    gaussmesh::resize_beyond(curvature, kept, count);
-    gaussmesh::resize_beyond(refinement, kept, count);
+  void resize_beyond(std::size_t kept, std::size_t count, int threads) {
+    gaussmesh::resize_beyond(at, kept, count, threads);
+    gaussmesh::resize_beyond(normal, kept, count, threads);
+    gaussmesh::resize_beyond(size, kept, count, threads);
+    gaussmesh::resize_beyond(curvature, kept, count, threads);
+    gaussmesh::resize_beyond(refinement, kept, count, threads);
   }
   void move(std::size_t from, std::size_t to) {
     at[to] = at[from];

@@ -286,8 +286,8 @@ WholeMesh MeshBlocks::join(int threads) && {
   for (auto* list : {&block_of_, &local_, &vertices_, &triangles_, &fixed_, &between_}) {
     *list = std::vector<std::uint32_t>();
   }
-  mesh_.resize_beyond(rest_vertices, first_vertex.back());
-  resize_beyond(mesh_.triangles, kept, first_triangle.back());
+  mesh_.resize_beyond(rest_vertices, first_vertex.back(), threads);
+  resize_beyond(mesh_.triangles, kept, first_triangle.back(), threads);
   parallel_for(stored_.size(), threads, [&](std::size_t b) {
     WholeMesh& part = stored_[b].part;
     mesh_.replace(first_vertex[b], part);

@@ -367,8 +367,8 @@ SurfaceMesh CellTriangulator::join(CellStore& store, TracedVertices& vertices, i
 
   const std::size_t traced = roots.size() + added.size(), living = traced - dead_vertices.size();
   SurfaceMesh surface;
-  surface.mesh.vertices.resize(living + inner_points);
-  surface.normals.resize(living + inner_points);
+  resize_in_parallel(surface.mesh.vertices, living + inner_points, threads);
+  resize_in_parallel(surface.normals, living + inner_points, threads);
   const auto put = [&](std::size_t at, const SurfacePoint& p) {
     surface.mesh.vertices[at] = to_angstrom(p.position);
     surface.normals[at] = p.normal;
@@ -389,7 +389,7 @@ SurfaceMesh CellTriangulator::join(CellStore& store, TracedVertices& vertices, i
     first_triangle.push_back(first_triangle.back() + cells.triangles.size());
     first_point.push_back(first_point.back() + cells.points.size());
   }
-  surface.mesh.triangles.resize(first_triangle.back());
+  resize_in_parallel(surface.mesh.triangles, first_triangle.back(), threads);
   parallel_for(patched_.size(), threads, [&](std::size_t i) {
     PatchedCells& cells = patched_[i];
     const auto base = static_cast<std::uint32_t>(first_point[i]);

@@ -123,10 +123,10 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
     vertices += static_cast<std::uint32_t>(built.roots.size());
     first_cell.push_back(first_cell.back() + built.cells.size());
   }
-  cells_.resize(first_cell.back());
+  resize_in_parallel(cells_, first_cell.back(), threads);
   roots_.reserve(vertices + vertices / 16);  // the other vertices come behind, without a second array
-  roots_.resize(vertices);
-  rises_.resize(vertices);
+  resize_in_parallel(roots_, vertices, threads);
+  resize_in_parallel(rises_, vertices, threads);
   parallel_for(all.size(), threads, [&](std::size_t i) {
     Brick& brick = all[i].brick;
     brick.cells = {cells_.data() + first_cell[i], all[i].cells.size()};
@@ -162,7 +162,7 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
 void CellStore::set_links(std::vector<std::vector<Link>> by_brick, int threads) {
   std::vector<std::size_t> first{0};
   for (const std::vector<Link>& links : by_brick) first.push_back(first.back() + links.size());
-  links_.resize(first.back());
+  resize_in_parallel(links_, first.back(), threads);
   parallel_for(bricks_.size(), threads, [&](std::size_t i) {
     std::copy(by_brick[i].begin(), by_brick[i].end(), links_.data() + first[i]);
     bricks_[i].links = {links_.data() + first[i], by_brick[i].size()};

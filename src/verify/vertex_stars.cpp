@@ -27,7 +27,8 @@ VertexRange range_of_thread(std::size_t vertices) {
 }  // namespace
 
 VertexStars::VertexStars(const TriangleMesh& mesh)
-    : start_(mesh.vertices.size() + 1), triangles_(3 * mesh.triangles.size()) {
+    : start_(mesh.vertices.size() + 1),
+      triangles_(std::make_unique_for_overwrite<std::uint32_t[]>(3 * mesh.triangles.size())) {
 #pragma omp parallel
   {
     const VertexRange mine = range_of_thread(mesh.vertices.size());

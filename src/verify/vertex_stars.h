@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,14 +21,14 @@ class VertexStars {
 
   /// In rising order; a triangle that names the vertex twice is there twice.
   std::span<const std::uint32_t> star(std::size_t vertex) const {
-    return {triangles_.data() + start_[vertex], start_[vertex + 1] - start_[vertex]};
+    return {triangles_.get() + start_[vertex], start_[vertex + 1] - start_[vertex]};
   }
 
   std::size_t vertex_count() const { return start_.size() - 1; }
 
  private:
   std::vector<std::size_t> start_;
-  std::vector<std::uint32_t> triangles_;
+  std::unique_ptr<std::uint32_t[]> triangles_;  // first written to by several threads, each its part
 };
 
 /// The two other vertices of a triangle, in the order in which it turns from `vertex` on.

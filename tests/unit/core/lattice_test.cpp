@@ -1,10 +1,12 @@
 #include "core/lattice.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "catch2.h"
 #include "support/random.h"
@@ -103,5 +105,18 @@ TEST_CASE("rounding down finds the cell below, on either side of zero") {
       CHECK(low <= n);
       CHECK(n < low + size);
     }
+  }
+}
+
+TEST_CASE("hashes of what lies in one cell of the level above are different neighbours") {
+  for (const CellKey& around : {CellKey{{0, 0, 0}, 0}, CellKey{{-3 * kFinePerCell, 0, 5 * kFinePerCell}, 0},
+                                CellKey{{-fine_size(4), fine_size(4), 7 * fine_size(4)}, 4}}) {
+    std::vector<std::size_t> hashes;
+    for (int c = 0; c < 8; ++c) {
+      const CellKey child = child_cell(around, c);
+      for (unsigned kind = 0; kind < 3; ++kind) hashes.push_back(lattice_hash<3>(child.lo, child.level, kind));
+    }
+    std::sort(hashes.begin(), hashes.end());
+    for (std::size_t i = 1; i < hashes.size(); ++i) CHECK(hashes[i] == hashes[0] + i);
   }
 }

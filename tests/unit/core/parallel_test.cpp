@@ -62,3 +62,15 @@ TEST_CASE("what is gathered in parts comes in the order of the parts, whatever t
     }
   }
 }
+
+TEST_CASE("an array that grows on all threads keeps what it has, and the rest is zero") {
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t count : {0u, 3u, 1000u, 200000u}) {
+      std::vector<int> array{1, 2, 3, 4, 5};
+      resize_in_parallel(array, count, threads);
+      std::vector<int> expected{1, 2, 3, 4, 5};
+      expected.resize(count);
+      CHECK(array == expected);
+    }
+  }
+}
