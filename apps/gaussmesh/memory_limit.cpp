@@ -251,9 +251,9 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   spool.page_size = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   // Processor time is counted in ticks of the system's clock, of some milliseconds: pages that are in the system's
   // cache can be mapped at 30 GB/s meanwhile.
-  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{176} << 20;
+  constexpr std::uint64_t kTouchedMeanwhile = std::uint64_t{192} << 20;
   spool.most_on_heap = static_cast<std::int64_t>(limit / 8);
-  spool.most_resident = limit - std::max(limit / 8, std::min(limit * 11 / 16, kTouchedMeanwhile));
+  spool.most_resident = limit - std::max(limit / 8, std::min(limit * 3 / 4, kTouchedMeanwhile));
   spool.enough_resident = spool.most_resident - limit / 8;
   struct sigaction action {};
   action.sa_handler = look_at_limit;
