@@ -130,7 +130,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
                    const Sweep& sweep) {
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
-  SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
+  SheetGuard guard(mesh, guarding == Guarding::kEverywhere);
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
@@ -151,7 +151,7 @@ std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, 
     refine(mesh, sharp);
     activate_round(mesh, std::move(bad));
     find_wanted_sizes(mesh, field, targets);
-    SheetGuard guard(mesh, targets.largest, guarding == Guarding::kEverywhere);
+    SheetGuard guard(mesh, guarding == Guarding::kEverywhere);
     cut_to_size(mesh, guard, field, Accuracy::kExact);
     run_round(mesh, guard, field, Accuracy::kExact);
     repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);

@@ -12,9 +12,8 @@ namespace gaussmesh {
 class SheetGuard {
  public:
   /// Marks the vertices of `mesh` that have another sheet near.
-  /// @param largest  no wanted edge is longer (A)
   /// @param everywhere  mark all of them: slow, but then nothing rests on what counts as near
-  SheetGuard(BlockMesh& mesh, double largest, bool everywhere);
+  SheetGuard(BlockMesh& mesh, bool everywhere);
 
   static bool is_guarded(const BlockMesh& mesh, const Triangle& t) {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
