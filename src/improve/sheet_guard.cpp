@@ -22,8 +22,7 @@ void mark_close_sheets(BlockMesh& mesh) {
 
 }  // namespace
 
-SheetGuard::SheetGuard(BlockMesh& mesh, bool everywhere)
-    : lo_(mesh.box.lo), everywhere_(everywhere) {
+SheetGuard::SheetGuard(BlockMesh& mesh, bool everywhere) : lo_(mesh.box.lo), everywhere_(everywhere) {
   double width = 0.0;
   for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
   cells_per_angstrom_ = static_cast<float>(kMostCells / width);
