@@ -82,24 +82,24 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
   return bad;
 }
 
-std::vector<Box> take_boxes_apart(std::vector<Box>& boxes, double most) {
-  std::vector<Box> taken;
-  BoxGrid grid(most);
-  for (const Box& box : boxes) {
+std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
+  std::vector<Box> boxes;
+  BoxGrid grid(2.0 * half_edge);
+  for (const Vec3& place : places) {
+    const Box box = widened({place, place}, half_edge);
     bool is_free = true;
-    BoxGrid::Reader(grid).visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, taken[other]); });
+    BoxGrid::Reader(grid).visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
     if (!is_free) continue;
-    grid.add(box, static_cast<std::uint32_t>(taken.size()));
-    taken.push_back(box);
+    grid.add(box, static_cast<std::uint32_t>(boxes.size()));
+    boxes.push_back(box);
   }
   BoxGrid::Reader reader(grid);
-  std::erase_if(boxes, [&](const Box& box) {
-    const Vec3 middle = 0.5 * (box.lo + box.hi);
+  std::erase_if(places, [&](const Vec3& place) {
     bool is_taken = false;
-    reader.visit({middle, middle}, [&](std::uint32_t other) { is_taken = is_taken || is_in(taken[other], middle); });
+    reader.visit({place, place}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place); });
     return is_taken;
   });
-  return taken;
+  return boxes;
 }
 
 }  // namespace gaussmesh

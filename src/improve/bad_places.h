@@ -16,8 +16,7 @@ inline const double kLeastSine = std::sin(kLeastAngle * std::numbers::pi / 180.0
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads);
 
-/// Boxes in their order, as many as have no point in common; all whose middle lies in one of those are taken from the
-/// list. @param most  none is larger than this (A) along any axis
-std::vector<Box> take_boxes_apart(std::vector<Box>& boxes, double most);
+/// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
+std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge);
 
 }  // namespace gaussmesh

@@ -41,11 +41,8 @@ struct Sweep {
 constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follow them: in boxes round what is bad, as often as it takes. Smaller ones where triangles are small: many more
-/// find room side by side, and little is cut out that nobody works on. What is still bad gets larger ones each time.
-constexpr double kHalfEdgeOfBoxes = 5.0, kLeastHalfEdgeOfBoxes = 0.25;  ///< spacings
-constexpr double kHalfEdgeOfBoxesInSizes = 12.0;  ///< wanted sizes in the middle, at first
-constexpr double kGrowthOfBoxes = 1.25;
+/// Follow them: in boxes round what is bad, as often as it takes.
+constexpr double kHalfEdgeOfBoxes = 5.0;  ///< spacings
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -79,16 +76,10 @@ double mean_edge(const WholeMesh& mesh, int threads) {
   return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// @param in_sizes  their half edge in wanted sizes of the vertices
-std::vector<Box> boxes_round(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices, double spacing,
-                             double in_sizes) {
-  std::vector<Box> boxes;
-  for (const std::uint32_t v : vertices) {
-    const double half_edge = std::clamp(in_sizes * double(mesh.size[v]), kLeastHalfEdgeOfBoxes * spacing,
-                                        kHalfEdgeOfBoxes * spacing);
-    boxes.push_back(widened({mesh.at[v], mesh.at[v]}, half_edge));
-  }
-  return boxes;
+std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : vertices) places.push_back(mesh.at[v]);
+  return places;
 }
 
 /// The corners of triangles with an angle that is too small.
@@ -148,15 +139,15 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
 }
 
 /// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
-/// @return what is still bad
-std::vector<std::uint32_t> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
-                                      Guarding guarding) {
+/// @return places that are still bad
+std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
+                             Guarding guarding) {
   BlockField field(whole_field, mesh.box);
   for (int round = 0;; ++round) {
     const std::vector<std::uint32_t> sharp = find_sharp_edges(mesh);
     std::vector<std::uint32_t> bad = find_bad_triangles(mesh);
     bad.insert(bad.end(), sharp.begin(), sharp.end());
-    if (bad.empty() || round == kRoundsInBoxes) return bad;
+    if (bad.empty() || round == kRoundsInBoxes) return places_of(mesh, bad);
     refine(mesh, sharp);
     activate_round(mesh, std::move(bad));
     find_wanted_sizes(mesh, field, targets);
@@ -202,19 +193,16 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
-  const double most = 2.0 * kHalfEdgeOfBoxes * targets.spacing;
-  std::vector<Box> bad;  // round places; where none is known the whole mesh is looked at
-  double in_sizes = kHalfEdgeOfBoxesInSizes;
-  for (int i = 0; i < kMostSweepsOfBoxes; ++i, in_sizes *= kGrowthOfBoxes) {
-    if (bad.empty()) bad = boxes_round(mesh, find_bad_vertices(mesh, threads), targets.spacing, in_sizes);
+  const double half_edge = kHalfEdgeOfBoxes * targets.spacing;
+  std::vector<Vec3> bad;  // places; where none is known the whole mesh is looked at
+  for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
+    if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
     if (bad.empty()) break;
-    const std::vector<Box> boxes = take_boxes_apart(bad, most);
-    std::vector<std::vector<Box>> left(boxes.size());
-    mesh = run(MeshBlocks(std::move(mesh), boxes, most, threads), kEffortInBoxes,
-               [&](std::size_t b, BlockMesh& block) {
-                 left[b] = boxes_round(block, mend_block(block, field, now, guarding), targets.spacing, in_sizes);
-               });
-    for (const auto& more : left) bad.insert(bad.end(), more.begin(), more.end());
+    const std::vector<Box> boxes = take_boxes_round(bad, half_edge);
+    std::vector<std::vector<Vec3>> left(boxes.size());
+    mesh = run(MeshBlocks(std::move(mesh), boxes, 2.0 * half_edge, threads), kEffortInBoxes,
+               [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field, now, guarding); });
+    for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
   return {{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)};

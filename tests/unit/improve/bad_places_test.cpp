@@ -64,23 +64,26 @@ TEST_CASE("sharp edges between well-shaped triangles are bad places") {
   CHECK(find_bad_vertices(mesh, 1).empty());
 }
 
-TEST_CASE("boxes taken apart have no common points, and those that are left touch one and have their middle outside") {
+TEST_CASE("boxes round bad vertices have no common points, and none is far from all of them") {
   const WholeMesh mesh = whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)), 0.8f);
-  std::vector<Box> wanted;
-  for (const std::uint32_t v : find_bad_vertices(mesh, 1)) {
-    wanted.push_back(widened({mesh.at[v], mesh.at[v]}, wanted.size() % 3 == 0 ? 1.0 : 0.3));
-  }
-  std::vector<Box> left = wanted;
-  const std::vector<Box> boxes = take_boxes_apart(left, 2.0);
-  for (const Box& box : left) {
-    const Vec3 middle = 0.5 * (box.lo + box.hi);
-    CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& taken) { return is_in(taken, middle); }));
+  const std::vector<std::uint32_t> bad = find_bad_vertices(mesh, 1);
+  const double half_edge = 1.0;
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : bad) places.push_back(mesh.at[v]);
+  const std::vector<Box> boxes = take_boxes_round(places, half_edge);
+  for (const Vec3& place : places) {
+    CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_in(box, place); }));
   }
   REQUIRE(boxes.size() > 3);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes_meet(boxes[i], boxes[j]));
   }
-  for (const Box& box : wanted) {
-    CHECK(std::any_of(boxes.begin(), boxes.end(), [&](const Box& taken) { return boxes_meet(box, taken); }));
+  for (const std::uint32_t v : bad) {
+    Box around;
+    for (int k = 0; k < 3; ++k) {
+      around.lo[k] = mesh.at[v][k] - half_edge;
+      around.hi[k] = mesh.at[v][k] + half_edge;
+    }
+    CHECK(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return boxes_meet(around, box); }));
   }
 }
