@@ -115,6 +115,10 @@ class BrickTracer {
 /// is one of quality, not of topology, and near a singular point it cannot be kept at any size.
 constexpr int kFinestForNormals = 5;
 
+/// The same where triangles are to be improved. A crack whose mouth larger triangles bridge cannot be opened
+/// afterwards, as their parts would be turned too far; a place where sheets nearly touch takes a few cells at each level.
+constexpr int kFinestForImproving = 10;
+
 /// Takes over what an earlier call made of cells that have not changed, cell after cell.
 class CellCopier {
  public:
@@ -193,7 +197,7 @@ class CellPatcher {
         direction.sign != 0
             ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), direction, loops)
             : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
-    if (!patch.complete || (key.level < kFinestForNormals && is_turned(patch, key))) {
+    if (!patch.complete || (key.level < finest_for_normals() && is_turned(patch, key))) {
       result.failed.push_back(key);
       return;
     }
@@ -205,6 +209,9 @@ class CellPatcher {
     }
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
+
+  bool is_to_be_improved() const { return least_corner_cosine_ > -1.0; }
+  int finest_for_normals() const { return is_to_be_improved() ? kFinestForImproving : kFinestForNormals; }
 
   static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
     double sum = 0.0;
@@ -241,7 +248,7 @@ class CellPatcher {
     bool atoms_loaded = false;
     for (const Triangle& t : patch.triangles) {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
-      if (least_corner_cosine_ > -1.0) {
+      if (is_to_be_improved()) {
         if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
         if (is_bridge(p, q, r, cell)) return true;
       }
