@@ -21,8 +21,8 @@ double wanted_size(const BlockMesh& m, Index h) {
 constexpr double kLeastSineForValence = 0.34;
 
 /// Where triangles lead over a rim of the surface, from one side to the other, splits lead out of that; but the
-/// first parts may be turned by more than the whole was. Then they are well-shaped, and kept from their neighbours
-/// by exact signs.
+/// first parts may be turned by more than the whole was. Then they are well-shaped, or no worse than the whole was, and
+/// kept from their neighbours by exact signs.
 constexpr double kTurnLimitOnRims = 0.1, kLeastSineOnRims = 0.2;
 
 /// Each edge to be worked on that is not on the boundary once: by the half-edge with the smaller number.
@@ -128,7 +128,7 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   const TriangleQuality before = worse(triangle_quality(mesh, s), triangle_quality(mesh, t));
   TriangleQuality after = kPerfect;
   for (const Triangle& p : parts) after = worse(after, triangle_quality(mesh, p[0], p[1], p[2]));
-  bool allowed = turn_is_allowed(before, after) || (after.min_sine >= kLeastSineOnRims &&
+  bool allowed = turn_is_allowed(before, after) || (after.min_sine >= std::min(kLeastSineOnRims, before.min_sine) &&
                                                     after.normal_cosine >= kTurnLimitOnRims &&
                                                     !meets_stars(mesh, s, t, parts));
   const bool guarded = mesh.is_guarded[m];

@@ -55,11 +55,20 @@ double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const S
   return std::min({cosine_between(n, p.normal), cosine_between(n, q.normal), cosine_between(n, r.normal)});
 }
 
-SideShape side_shape(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
-  const Vec3 side = difference(q.position, p.position), n = area_normal(p, q, r);
-  double turn = 0.0;
-  for (int k = 0; k < 3; ++k) turn += side[k] * (double(q.normal[k]) - double(p.normal[k]));
-  return {std::sqrt(dot(n, n) / dot(side, side)), std::abs(turn) / 8.0};
+LongestSide longest_side(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  LongestSide longest;
+  for (const auto& [a, b] : {std::pair(&p, &q), std::pair(&q, &r), std::pair(&r, &p)}) {
+    const Vec3 from = to_angstrom(a->position), to = to_angstrom(b->position);
+    const Vec3 side = difference(b->position, a->position);
+    const double length = std::sqrt(dot(side, side)) / kUnitsPerAngstrom;
+    if (length <= longest.length) continue;
+    longest.length = length;
+    for (int k = 0; k < 3; ++k) longest.middle[k] = 0.5 * (from[k] + to[k]);
+  }
+  const Vec3 n = area_normal(p, q, r);
+  const double doubled_area = std::sqrt(dot(n, n)) / (kUnitsPerAngstrom * kUnitsPerAngstrom);
+  longest.height = doubled_area / longest.length;
+  return longest;
 }
 
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {

@@ -18,14 +18,13 @@ double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const Surface
 /// The least of these over the field's normals at the three corners.
 double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
 
-/// A side of a triangle (units of coordinates).
-struct SideShape {
+/// The longest side of a triangle (A).
+struct LongestSide {
+  Vec3 middle{};
+  double length = 0.0;
   double height = 0.0;  ///< of the triangle over it
-  double bow = 0.0;     ///< of the surface over it: an arc that turns by a over a chord e rises by e a / 8
 };
-
-/// The side p q of the triangle p q r, with the field's normals at p and q.
-SideShape side_shape(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
+LongestSide longest_side(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
 
 /// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
 /// squared edges, and much more for a triangle whose normal is far from the field's at its corners.

@@ -116,8 +116,11 @@ class BrickTracer {
 constexpr int kFinestForNormals = 5;
 
 /// The same where triangles are to be improved. A crack whose mouth larger triangles bridge cannot be opened
-/// afterwards, as their parts would be turned too far; a place where sheets nearly touch takes a few cells at each level.
+/// afterwards, as their parts would be turned too far. A place where sheets nearly touch takes few cells at each level.
 constexpr int kFinestForImproving = 10;
+
+/// Triangles whose normal is as near as this to the field's at the corners (cosine) bridge nothing.
+constexpr double kAlmostFlat = 0.9;
 
 /// Takes over what an earlier call made of cells that have not changed, cell after cell.
 class CellCopier {
@@ -223,45 +226,45 @@ class CellPatcher {
     return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : vertices_[vertex];
   }
 
-  /// Whether the surface rises high over a long side of a thin triangle, as over the ends of a ridge: however the
-  /// triangle is split, its parts are turned far from the field.
-  static bool is_bridge(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, double cell) {
-    constexpr double kLong = 0.6, kHigh = 0.08;  // cells
-    const auto bridges = [&](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
-      double length_sq = 0.0;
-      for (int k = 0; k < 3; ++k) {
-        const auto along = static_cast<double>(b.position[k] - a.position[k]);
-        length_sq += along * along;
-      }
-      if (length_sq <= kLong * cell * kLong * cell) return false;
-      const SideShape side = side_shape(a, b, c);
-      return side.bow > kHigh * cell && side.height < side.bow;
-    };
-    return bridges(p, q, r) || bridges(q, r, p) || bridges(r, p, q);
-  }
-
-  /// Whether a triangle is turned against the field at its centroid, or, where that is asked for, has corners that
-  /// face too many ways or bridges a ridge: the cell is too coarse for the surface.
+  /// Whether a triangle is turned against the field at its centroid, or, where triangles are to be improved, has
+  /// corners that face too many ways or bridges a ridge: the cell is too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
     constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
-    const auto cell = static_cast<double>(lattice_.step * fine_size(key.level));
     bool atoms_loaded = false;
-    for (const Triangle& t : patch.triangles) {
-      const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
-      if (is_to_be_improved()) {
-        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
-        if (is_bridge(p, q, r, cell)) return true;
-      }
-      if (least_normal_cosine(p, q, r) > kSuspect) continue;
+    const auto value_at = [&](const Vec3& place) {
       if (!atoms_loaded) field_.collect_near(cell_box(lattice_, key), atoms_);
       atoms_loaded = true;
+      return evaluate(atoms_, field_.decay(), place);
+    };
+    for (const Triangle& t : patch.triangles) {
+      const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
+      const double turn = least_normal_cosine(p, q, r);
+      if (is_to_be_improved()) {
+        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
+        if (turn < kAlmostFlat && is_bridge(longest_side(p, q, r), key, value_at)) return true;
+      }
+      if (turn > kSuspect) continue;
       const Vec3 a = to_angstrom(p.position), b = to_angstrom(q.position), c = to_angstrom(r.position);
       Vec3 centroid;
       for (int k = 0; k < 3; ++k) centroid[k] = (a[k] + b[k] + c[k]) / 3.0;
-      const auto normal = outward_normal(evaluate(atoms_, field_.decay(), centroid).gradient);
-      if (normal_cosine(p, q, r, normal) <= 0.0) return true;
+      if (normal_cosine(p, q, r, outward_normal(value_at(centroid).gradient)) <= 0.0) return true;
     }
     return false;
+  }
+
+  /// Whether the surface rises so high over the longest side of a thin triangle, as over a ridge, that its parts are
+  /// turned far from the field if it is split there.
+  template <typename ValueAt>
+  bool is_bridge(const LongestSide& side, const CellKey& key, const ValueAt& value_at) const {
+    constexpr double kThin = 0.3;   // height by length
+    constexpr double kSteep = 0.7;  // rise by height, which turns the parts by 35 degrees
+    constexpr double kHigh = 0.03;  // rise in cells; what rises less is mended afterwards
+    if (side.height > kThin * side.length) return false;
+    const PointValue value = value_at(side.middle);
+    double slope_sq = 0.0;
+    for (const double g : value.gradient) slope_sq += g * g;
+    const double rise = std::abs(value.value) / std::sqrt(slope_sq);
+    return rise > kSteep * side.height && rise > kHigh * to_angstrom(lattice_.step * fine_size(key.level));
   }
 
   const GaussianField& field_;

@@ -69,11 +69,12 @@ TEST_CASE("least_normal_cosine takes the corner that is farthest off") {
         Approx(std::cos(70.0 * std::numbers::pi / 180.0)));
 }
 
-TEST_CASE("side_shape knows how high an arc is over its chord") {
-  // A circle of radius 1 about (0, -cos 20), which turns by 40 degrees between p and q.
-  const double half = std::sin(20.0 * std::numbers::pi / 180.0), rise = 1.0 - std::cos(20.0 * std::numbers::pi / 180.0);
-  const SideShape arc = side_shape(point(-half, 0, -20.0), point(half, 0, 20.0), point(0.1, 0.02));
-  CHECK(arc.height == Approx(0.02 * kUnitsPerAngstrom));
-  CHECK(arc.bow == Approx(rise * kUnitsPerAngstrom).epsilon(0.05));
-  CHECK(side_shape(point(-half, 0), point(half, 0), point(0, 1)).bow == 0.0);
+TEST_CASE("longest_side has its middle, its length and the height over it, whichever side it is") {
+  const SurfacePoint p = point(1, 0), q = point(5, 0), r = point(2, 0.25);
+  for (const LongestSide& side : {longest_side(p, q, r), longest_side(q, r, p), longest_side(r, p, q)}) {
+    CHECK(side.middle[0] == Approx(3.0));
+    CHECK(side.middle[1] == Approx(0.0));
+    CHECK(side.length == Approx(4.0));
+    CHECK(side.height == Approx(0.25));
+  }
 }
