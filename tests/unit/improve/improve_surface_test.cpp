@@ -69,6 +69,15 @@ TEST_CASE("creases and rims much narrower than the spacing get triangles as good
   CHECK(sharp_edges(result.mesh, 0.5) == 0);
 }
 
+TEST_CASE("cracks and ridges that a traced triangle would bridge get triangles as good") {
+  const std::vector<Atom> three{{2.32, 3.44, 1.88, 1.44, 0}, {1.0, 0.84, 0.11, 1.92, 0}, {3.44, 2.18, 1.25, 1.31, 0}};
+  const MeshResult few = mesh_surface(three, improved(8.0, 1.0, 1.5));
+  CHECK(few.report.check.min_angle_deg > 30.0);
+  const MeshResult many = mesh_surface(molecule("1a1p"), improved(10.0, 1.0, 1.0));
+  CHECK(many.report.check.fit_for_solver());
+  CHECK(many.report.check.min_angle_deg > 30.0);
+}
+
 TEST_CASE("a neck much narrower than the spacing gets triangles of its own size") {
   // c just below the saddle between two atoms: necks down to 0.0005 A.
   const double d = 0.6, r = 1.6, half = 1.7;
