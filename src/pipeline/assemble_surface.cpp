@@ -258,7 +258,7 @@ class CellPatcher {
   bool is_bridge(const LongestSide& side, const CellKey& key, const ValueAt& value_at) const {
     constexpr double kThin = 0.3;   // height by length
     constexpr double kSteep = 0.7;  // rise by height, which turns the parts by 35 degrees
-    constexpr double kHigh = 0.03;  // rise in cells; what rises less is mended afterwards
+    constexpr double kHigh = 0.05;  // rise in cells; what rises less is mended afterwards
     if (side.height > kThin * side.length) return false;
     const PointValue value = value_at(side.middle);
     double slope_sq = 0.0;
