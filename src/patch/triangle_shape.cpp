@@ -56,18 +56,18 @@ double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const S
 }
 
 LongestSide longest_side(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r) {
+  double length_sq = 0.0;  // of coordinates
   LongestSide longest;
   for (const auto& [a, b] : {std::pair(&p, &q), std::pair(&q, &r), std::pair(&r, &p)}) {
-    const Vec3 from = to_angstrom(a->position), to = to_angstrom(b->position);
     const Vec3 side = difference(b->position, a->position);
-    const double length = std::sqrt(dot(side, side)) / kUnitsPerAngstrom;
-    if (length <= longest.length) continue;
-    longest.length = length;
+    if (dot(side, side) <= length_sq) continue;
+    length_sq = dot(side, side);
+    const Vec3 from = to_angstrom(a->position), to = to_angstrom(b->position);
     for (int k = 0; k < 3; ++k) longest.middle[k] = 0.5 * (from[k] + to[k]);
   }
   const Vec3 n = area_normal(p, q, r);
-  const double doubled_area = std::sqrt(dot(n, n)) / (kUnitsPerAngstrom * kUnitsPerAngstrom);
-  longest.height = doubled_area / longest.length;
+  longest.length = std::sqrt(length_sq) / kUnitsPerAngstrom;
+  longest.height = std::sqrt(dot(n, n) / length_sq) / kUnitsPerAngstrom;
   return longest;
 }
 

@@ -119,6 +119,10 @@ constexpr int kFinestForNormals = 5;
 /// afterwards, as their parts would be turned too far. A place where sheets nearly touch takes few cells at each level.
 constexpr int kFinestForImproving = 10;
 
+/// Where triangles are to be improved, the normals at the corners of one differ by 78 degrees at most (cosine): what
+/// is too coarse for the surface's curvature cannot be mended by moving vertices.
+constexpr double kLeastCornerCosine = 0.2;
+
 /// Triangles whose normal is as near as this to the field's at the corners (cosine) bridge nothing.
 constexpr double kAlmostFlat = 0.9;
 
@@ -166,13 +170,13 @@ class CellCopier {
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const FoldCellMap& folds, const TracedVertices& vertices, double least_corner_cosine)
+              const FoldCellMap& folds, const TracedVertices& vertices, bool for_improvement)
       : field_(field),
         lattice_(lattice),
         store_(store),
         folds_(folds),
         vertices_(vertices),
-        least_corner_cosine_(least_corner_cosine),
+        for_improvement_(for_improvement),
         collector_(lattice, store, split, vertices),
         triangulator_(field),
         fold_triangulator_(field) {}
@@ -213,8 +217,7 @@ class CellPatcher {
     result.points.insert(result.points.end(), patch.points.begin(), patch.points.end());
   }
 
-  bool is_to_be_improved() const { return least_corner_cosine_ > -1.0; }
-  int finest_for_normals() const { return is_to_be_improved() ? kFinestForImproving : kFinestForNormals; }
+  int finest_for_normals() const { return for_improvement_ ? kFinestForImproving : kFinestForNormals; }
 
   static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
     double sum = 0.0;
@@ -239,8 +242,8 @@ class CellPatcher {
     for (const Triangle& t : patch.triangles) {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
       const double turn = least_normal_cosine(p, q, r);
-      if (is_to_be_improved()) {
-        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < least_corner_cosine_) return true;
+      if (for_improvement_) {
+        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < kLeastCornerCosine) return true;
         if (turn < kAlmostFlat && is_bridge(longest_side(p, q, r), key, value_at)) return true;
       }
       if (turn > kSuspect) continue;
@@ -272,7 +275,7 @@ class CellPatcher {
   const CellStore& store_;
   const FoldCellMap& folds_;
   const TracedVertices& vertices_;
-  double least_corner_cosine_;
+  bool for_improvement_;
   NearAtoms atoms_;
   LoopCollector collector_;
   PatchTriangulator triangulator_;
@@ -323,7 +326,7 @@ std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, co
   }
   for (const std::uint32_t cell : split.changed_cells()) tasks.push_back(all_bricks + cell);
   parallel_for_workers(tasks.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, least_corner_cosine_)](
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, for_improvement_)](
                std::size_t i) mutable {
       PatchedCells result;
       if (tasks[i] < all_bricks) {

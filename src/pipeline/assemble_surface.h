@@ -30,10 +30,9 @@ struct PatchedCells {
 /// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
 class CellTriangulator {
  public:
-  /// @param least_corner_cosine  as in TraceDemands: cells that are too coarse for the surface fail also
-  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store,
-                   double least_corner_cosine)
-      : field_(field), lattice_(lattice), store_(store), least_corner_cosine_(least_corner_cosine) {}
+  /// @param for_improvement  as in TraceDemands: cells that are too coarse for the surface fail also
+  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store, bool for_improvement)
+      : field_(field), lattice_(lattice), store_(store), for_improvement_(for_improvement) {}
 
   /// Triangulates all cells in the first call, and then those that the last call of split.split() changed.
   /// @return those without an embedded triangulation, which must be split; when there are none, join() makes the
@@ -51,7 +50,7 @@ class CellTriangulator {
   const GaussianField& field_;
   const Lattice& lattice_;
   const CellStore& store_;
-  double least_corner_cosine_;
+  bool for_improvement_;
   std::deque<PatchedCells> patched_;   ///< by brick, then by split cell
 };
 

@@ -126,14 +126,6 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
 }
 
-/// Where triangles are improved, cells are split in which the surface turns by more than 78 degrees: what is too
-/// coarse for its curvature cannot be mended by moving vertices.
-constexpr double kLeastCornerCosine = 0.2;
-
-TraceDemands trace_demands(const MeshOptions& options) {
-  return {options.spacing, options.improve ? kLeastCornerCosine : -1.0};
-}
-
 /// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
 TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
                          double& isovalue_used) {
@@ -141,7 +133,7 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
     for (const double sign : {-1.0, 1.0}) {
       isovalue_used = options.isovalue * (1.0 + sign * change);
       const GaussianField field(atoms, options.decay, isovalue_used);
-      TraceResult trace = trace_surface(field, trace_demands(options), threads,
+      TraceResult trace = trace_surface(field, {options.spacing, options.improve}, threads,
                                         [&](const std::string& stage) { watch.finished(stage); });
       if (trace.uncertified.empty()) return trace;
     }
@@ -161,7 +153,7 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
                             int threads, Stopwatch& watch, MeshReport& report) {
   TraceResult trace;
   try {
-    trace = trace_surface(field, trace_demands(options), threads,
+    trace = trace_surface(field, {options.spacing, options.improve}, threads,
                           [&](const std::string& stage) { watch.finished(stage); });
     report.certified = trace.uncertified.empty();
     if (!report.certified) {

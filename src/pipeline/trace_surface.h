@@ -22,10 +22,9 @@ struct TraceResult {
 
 /// How finely the surface is to be traced.
 struct TraceDemands {
-  double spacing = 0.5;               ///< A: the size of the cells
-  /// Cells are split where normals at the corners of one triangle differ by more than this (cosine), and where a
-  /// thin triangle bridges a ridge: what improvement cannot mend. -1: never.
-  double least_corner_cosine = -1.0;
+  double spacing = 0.5;  ///< A: the size of the cells
+  /// Cells are split also where triangles are turned or thin in ways that improvement cannot mend.
+  bool for_improvement = false;
 };
 
 /// Called at the end of each stage with its name.

@@ -54,10 +54,11 @@ MeshResult mesh_raw(const std::vector<Atom>& atoms, MeshOptions options) {
   return mesh_surface(atoms, options);
 }
 
-/// As the trace makes it, but for the least corner cosine of a mesh that is to be improved.
+/// The surface as it is traced for a mesh that is to be improved.
 SurfaceMesh trace(const GaussianField& field, double spacing) {
   TraceDemands demands;
   demands.spacing = spacing;
+  demands.for_improvement = true;
   return trace_surface(field, demands, kThreads, [](const std::string&) {}).surface;
 }
 
