@@ -82,6 +82,22 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
   return bad;
 }
 
+std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads) {
+  constexpr double kPromisedSine = 0.5;
+  std::vector<std::uint32_t> thin = parallel_gather<std::uint32_t>(
+      mesh.triangles.size(), kTrianglesAtOnce, threads,
+      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+        for (std::size_t number = first; number < last; ++number) {
+          const Triangle& t = mesh.triangles[number];
+          if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kPromisedSine) {
+            list.insert(list.end(), t.begin(), t.end());
+          }
+        }
+      });
+  sort_and_unite(thin);
+  return thin;
+}
+
 std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
   std::vector<Box> boxes;
   BoxGrid grid(2.0 * half_edge);

@@ -16,6 +16,9 @@ inline const double kLeastSine = std::sin(kLeastAngle * std::numbers::pi / 180.0
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads);
 
+/// Corners of triangles with an angle below 30 degrees, in rising order. Cost: one pass over the triangles.
+std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads);
+
 /// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
 std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge);
 

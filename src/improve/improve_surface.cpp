@@ -160,9 +160,9 @@ std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, 
 
 }  // namespace
 
-SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                            Guarding guarding, int threads,
-                            const std::function<void(double share_done)>& on_progress) {
+ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
+                                Guarding guarding, int threads,
+                                const std::function<void(double share_done)>& on_progress) {
   WholeMesh mesh = start_with(std::move(traced), targets.spacing);
   const double edge = kBlockEdge * targets.spacing;
   SizeTargets now = targets;
@@ -195,9 +195,11 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
   }
   const double half_edge = kHalfEdgeOfBoxes * targets.spacing;
   std::vector<Vec3> bad;  // places; where none is known the whole mesh is looked at
+  bool is_mended = false;
   for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
     if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
-    if (bad.empty()) break;
+    is_mended = bad.empty();
+    if (is_mended) break;
     const std::vector<Box> boxes = take_boxes_round(bad, half_edge);
     std::vector<std::vector<Vec3>> left(boxes.size());
     mesh = run(MeshBlocks(std::move(mesh), boxes, 2.0 * half_edge, threads), kEffortInBoxes,
@@ -205,7 +207,9 @@ SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, cons
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
-  return {{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)};
+  std::vector<Vec3> thin;
+  if (!is_mended) thin = places_of(mesh, find_thin_vertices(mesh, threads));
+  return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(thin)};
 }
 
 }  // namespace gaussmesh

@@ -16,6 +16,12 @@ struct SurfaceMesh {
   std::vector<Normal> normals;
 };
 
+/// What improvement made of a mesh.
+struct ImprovedSurface {
+  SurfaceMesh surface;
+  std::vector<Vec3> thin;  ///< corners of the triangles that it left with an angle below 30 degrees
+};
+
 /// How triangles are kept from meeting.
 enum class Guarding {
   kCloseSheets,  ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
@@ -33,9 +39,9 @@ enum class Guarding {
 /// @param targets  spacing at most kLargestSpacing; `largest` is found here
 /// @param on_progress  called after each block, on any thread
 /// Cost: about twenty sums over the atoms nearby for each vertex.
-SurfaceMesh improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                            Guarding guarding, int threads,
-                            const std::function<void(double share_done)>& on_progress = {});
+ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
+                                Guarding guarding, int threads,
+                                const std::function<void(double share_done)>& on_progress = {});
 
 /// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for
 /// (core/exact_space.h).

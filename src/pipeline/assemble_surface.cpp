@@ -119,12 +119,12 @@ constexpr int kFinestForNormals = 5;
 /// afterwards, as their parts would be turned too far. A place where sheets nearly touch takes few cells at each level.
 constexpr int kFinestForImproving = 10;
 
-/// Where triangles are to be improved, the normals at the corners of one differ by 78 degrees at most (cosine): what
-/// is too coarse for the surface's curvature cannot be mended by moving vertices.
-constexpr double kLeastCornerCosine = 0.2;
+/// Where triangles are to be improved, the normal of one is as near as this to the field's at its corners (cosine; 60
+/// degrees): what is turned farther is too coarse for the surface, and cannot be mended by moving vertices.
+constexpr double kLeastNormalCosine = 0.5;
 
 /// Triangles whose normal is as near as this to the field's at the corners (cosine) bridge nothing.
-constexpr double kAlmostFlat = 0.9;
+constexpr double kAlmostFlat = 0.8;
 
 /// Takes over what an earlier call made of cells that have not changed, cell after cell.
 class CellCopier {
@@ -170,13 +170,15 @@ class CellCopier {
 class CellPatcher {
  public:
   CellPatcher(const GaussianField& field, const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-              const FoldCellMap& folds, const TracedVertices& vertices, bool for_improvement)
+              const FoldCellMap& folds, const TracedVertices& vertices, bool for_improvement,
+              const FineCells& fine_cells)
       : field_(field),
         lattice_(lattice),
         store_(store),
         folds_(folds),
         vertices_(vertices),
         for_improvement_(for_improvement),
+        fine_cells_(fine_cells),
         collector_(lattice, store, split, vertices),
         triangulator_(field),
         fold_triangulator_(field) {}
@@ -204,7 +206,8 @@ class CellPatcher {
         direction.sign != 0
             ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), direction, loops)
             : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
-    if (!patch.complete || (key.level < finest_for_normals() && is_turned(patch, key))) {
+    if (!patch.complete || fine_cells_.must_be_split(key) ||
+        (key.level < finest_for_normals() && is_turned(patch, key))) {
       result.failed.push_back(key);
       return;
     }
@@ -219,18 +222,12 @@ class CellPatcher {
 
   int finest_for_normals() const { return for_improvement_ ? kFinestForImproving : kFinestForNormals; }
 
-  static double cosine(const SurfacePoint& p, const SurfacePoint& q) {
-    double sum = 0.0;
-    for (int k = 0; k < 3; ++k) sum += double(p.normal[k]) * double(q.normal[k]);
-    return sum;
-  }
-
   const SurfacePoint& point(std::uint32_t vertex, const Patch& patch) const {
     return vertex >= kLocalVertex ? patch.points[vertex - kLocalVertex] : vertices_[vertex];
   }
 
-  /// Whether a triangle is turned against the field at its centroid, or, where triangles are to be improved, has
-  /// corners that face too many ways or bridges a ridge: the cell is too coarse for the surface.
+  /// Whether a triangle is turned against the field at its centroid, or, where triangles are to be improved, is turned
+  /// too far at a corner or bridges a ridge: the cell is too coarse for the surface.
   bool is_turned(const Patch& patch, const CellKey& key) {
     constexpr double kSuspect = 0.5;  // cosine with the corners' normals above which the centroid is not looked at
     bool atoms_loaded = false;
@@ -243,7 +240,7 @@ class CellPatcher {
       const SurfacePoint &p = point(t[0], patch), &q = point(t[1], patch), &r = point(t[2], patch);
       const double turn = least_normal_cosine(p, q, r);
       if (for_improvement_) {
-        if (std::min({cosine(p, q), cosine(q, r), cosine(r, p)}) < kLeastCornerCosine) return true;
+        if (turn < kLeastNormalCosine) return true;
         if (turn < kAlmostFlat && is_bridge(longest_side(p, q, r), key, value_at)) return true;
       }
       if (turn > kSuspect) continue;
@@ -276,6 +273,7 @@ class CellPatcher {
   const FoldCellMap& folds_;
   const TracedVertices& vertices_;
   bool for_improvement_;
+  const FineCells& fine_cells_;
   NearAtoms atoms_;
   LoopCollector collector_;
   PatchTriangulator triangulator_;
@@ -326,8 +324,8 @@ std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, co
   }
   for (const std::uint32_t cell : split.changed_cells()) tasks.push_back(all_bricks + cell);
   parallel_for_workers(tasks.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, for_improvement_)](
-               std::size_t i) mutable {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, for_improvement_,
+                                     fine_cells_)](std::size_t i) mutable {
       PatchedCells result;
       if (tasks[i] < all_bricks) {
         const auto brick = static_cast<std::uint32_t>(tasks[i]);

@@ -8,6 +8,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "improve/improve_surface.h"
 #include "pipeline/cell_store.h"
+#include "pipeline/fine_cells.h"
 #include "pipeline/split_lattice.h"
 
 namespace gaussmesh {
@@ -30,9 +31,14 @@ struct PatchedCells {
 /// Makes loops of the curves round every cell and triangles of the loops, and again where curves have changed since.
 class CellTriangulator {
  public:
-  /// @param for_improvement  as in TraceDemands: cells that are too coarse for the surface fail also
-  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store, bool for_improvement)
-      : field_(field), lattice_(lattice), store_(store), for_improvement_(for_improvement) {}
+  /// @param for_improvement, fine_places  as in TraceDemands: cells that are too coarse for them fail also
+  CellTriangulator(const GaussianField& field, const Lattice& lattice, const CellStore& store, bool for_improvement,
+                   std::span<const FinePlace> fine_places)
+      : field_(field),
+        lattice_(lattice),
+        store_(store),
+        for_improvement_(for_improvement),
+        fine_cells_(lattice, fine_places) {}
 
   /// Triangulates all cells in the first call, and then those that the last call of split.split() changed.
   /// @return those without an embedded triangulation, which must be split; when there are none, join() makes the
@@ -51,6 +57,7 @@ class CellTriangulator {
   const Lattice& lattice_;
   const CellStore& store_;
   bool for_improvement_;
+  FineCells fine_cells_;
   std::deque<PatchedCells> patched_;   ///< by brick, then by split cell
 };
 

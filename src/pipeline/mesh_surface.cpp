@@ -127,14 +127,14 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
 }
 
 /// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
-TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
-                         double& isovalue_used) {
+TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, const TraceDemands& demands,
+                         int threads, Stopwatch& watch, double& isovalue_used) {
   for (double change = 1e-9; change < 1e-2; change *= 4.0) {
     for (const double sign : {-1.0, 1.0}) {
       isovalue_used = options.isovalue * (1.0 + sign * change);
       const GaussianField field(atoms, options.decay, isovalue_used);
-      TraceResult trace = trace_surface(field, {options.spacing, options.improve}, threads,
-                                        [&](const std::string& stage) { watch.finished(stage); });
+      TraceResult trace =
+          trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
       if (trace.uncertified.empty()) return trace;
     }
   }
@@ -149,17 +149,17 @@ std::int64_t euler_number(const TriangleMesh& mesh) {
 
 /// The traced surface, with the certificate in `report`.
 /// @throws CannotMeshError
-SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>& atoms, const MeshOptions& options,
+SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>& atoms, const TraceDemands& demands,
                             int threads, Stopwatch& watch, MeshReport& report) {
+  const MeshOptions& options = report.options;
   TraceResult trace;
   try {
-    trace = trace_surface(field, {options.spacing, options.improve}, threads,
-                          [&](const std::string& stage) { watch.finished(stage); });
+    trace = trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
     report.certified = trace.uncertified.empty();
     if (!report.certified) {
       report.critical = critical_places(field, trace, options.isovalue);
       if (!options.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options.isovalue));
-      trace = trace_beside(atoms, options, threads, watch, report.isovalue_used);
+      trace = trace_beside(atoms, options, demands, threads, watch, report.isovalue_used);
     }
   } catch (const LatticeDegenerate& degenerate) {
     throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
@@ -173,15 +173,17 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
   return std::move(trace.surface);
 }
 
-/// Improves a traced mesh; `result` gets it with the judge's verdict. @return whether it may be given out
+/// Improves a traced mesh; `result` gets it with the judge's verdict, and `thin` the corners of triangles with small
+/// angles that are left. @return whether it may be given out
 bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
-             int threads, Stopwatch& watch, MeshResult& result) {
+             int threads, Stopwatch& watch, MeshResult& result, std::vector<Vec3>& thin) {
   const auto& on_progress = result.report.options.on_improving;
   const std::int64_t chi = euler_number(traced.mesh);
   result.mesh = {};  // of an attempt before
-  SurfaceMesh improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
-  const bool same_topology = euler_number(improved.mesh) == chi;
-  take_mesh(std::move(improved), result);
+  ImprovedSurface improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
+  const bool same_topology = euler_number(improved.surface.mesh) == chi;
+  take_mesh(std::move(improved.surface), result);
+  thin = std::move(improved.thin);
   watch.finished("improve");
   result.report.check = check_mesh(result.mesh);
   watch.finished("verify");
@@ -205,7 +207,8 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
 
   const GaussianField field(atoms, options.decay, options.isovalue);
   watch.finished("field");
-  const auto trace = [&] { return certified_trace(field, atoms, options, threads, watch, report); };
+  TraceDemands demands{options.spacing, options.improve};
+  const auto trace = [&] { return certified_trace(field, atoms, demands, threads, watch, report); };
   const auto measure = [&] {
     const TwoSidedDistance d = two_sided_distance(result.mesh, atoms, options.decay, report.isovalue_used);
     report.surface_distance = std::max(d.mesh_to_surface, d.surface_to_mesh);
@@ -218,20 +221,32 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
     if (options.measure_distance) measure();
   } else {
     // Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another
-    // attempt.
+    // attempt. So does a small angle that is left: triangles that bridge what is finer than they are cannot always be
+    // mended, but what is traced from smaller cells can.
     constexpr int kMostAttempts = 4;
+    constexpr int kFinerLevels[] = {3, 5};
     SizeTargets targets;
     targets.spacing = options.spacing;
     targets.tolerance = options.tolerance;
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt, targets.tolerance *= 0.6) {
+    int attempt = 0;
+    auto finer = std::begin(kFinerLevels);
+    for (;;) {
       SurfaceMesh traced = trace();
       const GaussianField used(atoms, options.decay, report.isovalue_used);
-      is_good = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result) ||
-                improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result);
+      std::vector<Vec3> thin;
+      is_good = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result, thin) ||
+                improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result, thin);
       if (!is_good) break;
+      if (!thin.empty() && finer != std::end(kFinerLevels)) {
+        for (const Vec3& place : thin) demands.fine_places.push_back({place, *finer});
+        ++finer;
+        continue;
+      }
       if (options.measure_distance || options.tolerance > 0.0) measure();
       watch.finished("verify");
       if (options.tolerance == 0.0 || *report.surface_distance <= options.tolerance) break;
+      if (++attempt == kMostAttempts) break;
+      targets.tolerance *= 0.6;
     }
   }
   if (!is_good) {

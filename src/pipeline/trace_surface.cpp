@@ -44,7 +44,7 @@ void note_leaves(const SplitLattice& split, const Lattice& lattice, TraceResult&
   }
 }
 
-TraceResult trace_on(const GaussianField& field, const Lattice& lattice, bool for_improvement, int threads,
+TraceResult trace_on(const GaussianField& field, const Lattice& lattice, const TraceDemands& demands, int threads,
                      const StageClock& finished) {
   TraceResult result;
   CellStore store(field, lattice, threads);
@@ -61,7 +61,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, bool fo
   mark_folds(search.folds, store);
   TracedVertices vertices(store);
   auto split = std::make_optional<SplitLattice>(field, lattice, store, search.folds, vertices);
-  CellTriangulator cells(field, lattice, store, for_improvement);
+  CellTriangulator cells(field, lattice, store, demands.for_improvement, demands.fine_places);
   std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
     split->split(to_split, threads);
@@ -105,7 +105,7 @@ TraceResult trace_surface(const GaussianField& field, const TraceDemands& demand
                           const StageClock& finished) {
   for (const Vec3& offset : kOffsets) {
     try {
-      return trace_on(field, make_lattice(demands.spacing, offset), demands.for_improvement, threads, finished);
+      return trace_on(field, make_lattice(demands.spacing, offset), demands, threads, finished);
     } catch (const LatticeDegenerate& degenerate) {
       if (&offset != std::end(kOffsets) - 1) continue;
       if (!is_near_critical(field, degenerate.place)) throw;

@@ -25,6 +25,7 @@ struct TraceDemands {
   double spacing = 0.5;  ///< A: the size of the cells
   /// Cells are split also where triangles are turned or thin in ways that improvement cannot mend.
   bool for_improvement = false;
+  std::vector<FinePlace> fine_places{};  ///< cells are split there also
 };
 
 /// Called at the end of each stage with its name.

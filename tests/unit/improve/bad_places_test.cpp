@@ -47,6 +47,13 @@ TEST_CASE("an improved mesh has no bad places, and one as traced has those that 
   const std::vector<std::uint32_t> bad = find_bad_vertices(raw, 2);
   CHECK(bad.size() > 100);
   CHECK(bad == bad_vertices_by_pairs(raw));
+
+  std::set<std::uint32_t> thin;
+  for (const Triangle& t : raw.triangles) {
+    if (triangle_quality(raw, t[0], t[1], t[2]).min_sine < 0.5) thin.insert(t.begin(), t.end());
+  }
+  CHECK(find_thin_vertices(raw, 2) == std::vector<std::uint32_t>(thin.begin(), thin.end()));
+  CHECK(thin.size() > 100);
 }
 
 TEST_CASE("sharp edges between well-shaped triangles are bad places") {

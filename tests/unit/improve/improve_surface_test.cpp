@@ -127,8 +127,9 @@ TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only"
   const MeshResult traced = mesh_surface(atoms, options(0.6, 1.7, 0.5));
   const GaussianField field(atoms, 0.6, 1.7);
   SizeTargets targets;
-  const SurfaceMesh guarded = improve_surface({traced.mesh, traced.normals}, field, targets, Guarding::kEverywhere, 1);
-  const MeshCheck check = check_mesh(guarded.mesh);
+  const ImprovedSurface guarded =
+      improve_surface({traced.mesh, traced.normals}, field, targets, Guarding::kEverywhere, 1);
+  const MeshCheck check = check_mesh(guarded.surface.mesh);
   CHECK(check.fit_for_solver());
   CHECK(check.chi == traced.report.check.chi);
   CHECK(check.mean_min_angle_deg > 50.0);
