@@ -153,8 +153,11 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
   const HalfEdgeMesh& c = mesh.connectivity;
   const Place old{mesh.at[v], mesh.normal[v]};
   mesh.put(v, place);
-  bool allowed = true;
-  c.visit_star(v, [&](Index h) { allowed = allowed && is_at_least(mesh, h / 3, {least_sine, kTurnLimit}); });
+  bool allowed = true, has_guarded = mesh.is_guarded[v];
+  c.visit_star(v, [&](Index h) {
+    allowed = allowed && is_at_least(mesh, h / 3, {least_sine, kTurnLimit});
+    has_guarded = has_guarded || mesh.is_guarded[c.to(h)];
+  });
   if (!allowed) {  // as good as before is good enough
     const TriangleQuality after = star_quality(mesh, v);
     mesh.put(v, old);
@@ -173,7 +176,7 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
     mesh.put(v, old);
     return false;
   }
-  c.visit_star(v, [&](Index h) { guard.insert(mesh, h / 3); });
+  if (has_guarded) c.visit_star(v, [&](Index h) { guard.insert(mesh, h / 3); });
   return true;
 }
 
@@ -222,16 +225,13 @@ std::size_t even_out_valences(BlockMesh& mesh, SheetGuard& guard) {
     const Index v = c.from(h);  // none where the triangle is gone
     if (v != HalfEdgeMesh::kNone) ++valence[v];
   }
-  const auto excess = [](int v) { return (v - 6) * (v - 6); };
   std::size_t made = 0;
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!names_edge(mesh, h)) continue;
     const Index g = c.twin(h), a = c.from(h), b = c.to(h), p = c.opposite(h), q = c.opposite(g);
+    // A flip takes one from a and b and gives one to p and q: the sum of (valence - 6)^2 grows by this, doubled.
+    if (valence[p] + valence[q] - valence[a] - valence[b] + 2 >= 0) continue;
     if (!c.is_inner(p) || !c.is_inner(q)) continue;
-    const int before = excess(valence[a]) + excess(valence[b]) + excess(valence[p]) + excess(valence[q]);
-    const int after =
-        excess(valence[a] - 1) + excess(valence[b] - 1) + excess(valence[p] + 1) + excess(valence[q] + 1);
-    if (after >= before) continue;
     const double worst_after =
         std::min(triangle_quality(mesh, a, q, p).min_sine, triangle_quality(mesh, q, b, p).min_sine);
     if (worst_after < kLeastSineForValence || !try_flip(mesh, guard, h)) continue;
