@@ -105,15 +105,29 @@ SplitLattice::Wanted SplitLattice::list_wanted(std::span<const SplitCell> cells,
   return all;
 }
 
-/// Finds at once, of all leaves, what need not be looked at any more.
+/// Looks for a certificate of the leaf's own. @return whether the surface may be in the leaf
+bool SplitLattice::look_closer(LeafCell& leaf, const LocalModel& model, CellWork& work) {
+  const NearAtoms& near = work.atoms.within(proof_reach(leaf.key.level));
+  const CellCertificate own = work.prover.certify(near, model, 0);
+  if (own.kind == CellCertificate::Kind::kMonotone) leaf.direction = own.direction;
+  leaf.single_axes = static_cast<std::uint8_t>(leaf.single_axes | own.single_axes);
+  return own.kind != CellCertificate::Kind::kExcluded;
+}
+
+/// Finds at once, of all leaves, what need not be looked at any more, and drops those without surface.
 void SplitLattice::prepare(SplitCell& cell, CellWork& work) const {
   work.atoms.move_to(cell_box(lattice_, cell.key));
   work.models.clear();
   work.free_edges.clear();
+  std::vector<LeafCell> kept;
   for (LeafCell& leaf : cell.leaves) {
     const std::int64_t size = fine_size(leaf.key.level);
-    work.models.emplace_back(work.atoms.within(proof_reach(leaf.key.level)), field_.decay(),
-                             cell_box(lattice_, leaf.key));
+    const LocalModel& model = work.models.emplace_back(work.atoms.within(proof_reach(leaf.key.level)),
+                                                       field_.decay(), cell_box(lattice_, leaf.key));
+    if (leaf.is_inherited && !look_closer(leaf, model, work)) {
+      work.models.pop_back();
+      continue;
+    }
     std::array<Box, 12> edges;
     std::array<Box, 6> faces;
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,13 +136,16 @@ void SplitLattice::prepare(SplitCell& cell, CellWork& work) const {
         edges[4 * axis + corner] = lattice_box(lattice_, lo, moved(lo, axis, size));
       }
       for (int side = 0; side < 2; ++side) {
-        Box& face = faces[2 * axis + side] = work.models.back().box();
+        Box& face = faces[2 * axis + side] = model.box();
         (side == 0 ? face.hi : face.lo)[axis] = (side == 0 ? face.lo : face.hi)[axis];
       }
     }
-    work.free_edges.push_back(static_cast<std::uint16_t>(free_parts(work.models.back(), edges)));
-    leaf.empty_faces = static_cast<std::uint8_t>(free_parts(work.models.back(), faces));
+    work.free_edges.push_back(static_cast<std::uint16_t>(free_parts(model, edges)));
+    leaf.empty_faces = static_cast<std::uint8_t>(free_parts(model, faces));
+    kept.push_back(leaf);
   }
+  kept.shrink_to_fit();
+  cell.leaves = std::move(kept);
 }
 
 void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, std::span<CellWork> work, int threads) {

@@ -61,11 +61,11 @@ void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   parallel_for_workers(cells.size(), threads, 1, [&] {
     return
         [&, prover = CellProver(field_.decay()), atoms = LocalAtoms(field_)](std::size_t i) mutable {
-          atoms.move_to(cell_box(lattice_, cells[i]));
           const LeafCell cell = find_cell(cells[i]);
           if (cell.direction.sign != 0) {
-            split_certified(cell, atoms, prover, branches[i]);
+            split_certified(cell, branches[i]);
           } else {
+            atoms.move_to(cell_box(lattice_, cells[i]));
             split_one(cells[i], atoms, prover, branches[i]);
           }
         };
@@ -198,18 +198,9 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
 }
 
 /// What is proven of a cell holds for its children too.
-void SplitLattice::split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover,
-                                   Branch& branch) const {
+void SplitLattice::split_certified(const LeafCell& cell, Branch& branch) {
   branch.split.push_back(cell.key);
-  for (int c = 0; c < 8; ++c) {
-    const CellKey child = child_cell(cell.key, c);
-    const NearAtoms& near = around.within(proof_reach(child.level));
-    const CellCertificate own = prover.certify(near, LocalModel(near, field_.decay(), cell_box(lattice_, child)), 0);
-    if (own.kind == CellCertificate::Kind::kExcluded) continue;
-    const bool is_proven = own.kind == CellCertificate::Kind::kMonotone;
-    branch.leaves.push_back({child, is_proven ? own.direction : cell.direction,
-                             own.single_axes | unsigned{cell.single_axes}});
-  }
+  for (int c = 0; c < 8; ++c) branch.leaves.push_back({child_cell(cell.key, c), cell.direction, cell.single_axes, true});
 }
 
 /// Where no axis was found for a cell, atoms that its list leaves out are often the reason: its parts take them.

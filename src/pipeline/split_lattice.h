@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "boxes/cell_prover.h"
 #include "core/key_index.h"
 #include "field/local_atoms.h"
 #include "patch/fold_triangulator.h"
@@ -35,10 +36,14 @@ struct LeafCell {
   CellKey key;
   Direction direction;           ///< none: cut along folds
   std::uint8_t single_axes = 0;  ///< as in CellCertificate
+  bool is_inherited = false;     ///< the certificate is that of the cell that was split
   std::uint8_t empty_faces = 0;  ///< bit 2 k + s: no surface in the face across axis k on the low (s = 0) or high side
 
-  LeafCell(const CellKey& of_key, const Direction& of_direction, unsigned of_single_axes)
-      : key(of_key), direction(of_direction), single_axes(static_cast<std::uint8_t>(of_single_axes)) {}
+  LeafCell(const CellKey& of_key, const Direction& of_direction, unsigned of_single_axes, bool inherited = false)
+      : key(of_key),
+        direction(of_direction),
+        single_axes(static_cast<std::uint8_t>(of_single_axes)),
+        is_inherited(inherited) {}
 };
 
 /// A cell that was split, and the smaller cells that are left of it.
@@ -129,8 +134,9 @@ class SplitLattice {
   };
   /// What is at hand of a split cell while its edges and faces are looked at.
   struct CellWork {
-    explicit CellWork(const GaussianField& field) : atoms(field) {}
+    explicit CellWork(const GaussianField& field) : atoms(field), prover(field.decay()) {}
     LocalAtoms atoms;
+    CellProver prover;
     std::vector<LocalModel> models;          ///< of its leaves
     std::vector<std::uint16_t> free_edges;   ///< of its leaves: bit 4 axis + corner: no surface on the edge
   };
@@ -155,7 +161,7 @@ class SplitLattice {
   static Wanted list_wanted(std::span<const SplitCell> cells, const LatticeKeys& found, int threads,
                             const Visit& visit);
   LeafCell find_cell(const CellKey& key) const;
-  void split_certified(const LeafCell& cell, LocalAtoms& around, CellProver& prover, Branch& branch) const;
+  static void split_certified(const LeafCell& cell, Branch& branch);
   void split_one(const CellKey& key, LocalAtoms& around, CellProver& prover, Branch& branch) const;
   void take_from_leaves(const CellKey& key);
   void drop_faces(const CellKey& key);
@@ -167,6 +173,7 @@ class SplitLattice {
   /// Finds roots and curves of the leaves of cells_ from an entry on.
   void find_curves(std::size_t first_cell, int threads);
   void prepare(SplitCell& cell, CellWork& work) const;
+  static bool look_closer(LeafCell& leaf, const LocalModel& model, CellWork& work);
   void find_edge_roots(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
   void trace_faces(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
