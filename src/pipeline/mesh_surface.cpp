@@ -90,6 +90,7 @@ void take_mesh(SurfaceMesh surface, MeshResult& result) {
 }
 
 void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
+  report.boxes.clear();  // of an attempt before
   for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
     report.boxes.push_back({cell_size * std::ldexp(1.0, -static_cast<int>(i)), trace.boxes_by_level[i]});
   }
@@ -190,6 +191,17 @@ bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& 
   return same_topology && result.report.check.fit_for_solver();
 }
 
+/// Asks for smaller cells where small angles are left: triangles that bridge what is finer than they are cannot always
+/// be mended, but those of a finer trace can. @return whether there is such a trace to be tried
+bool ask_for_finer_trace(const std::vector<Vec3>& thin, TraceDemands& demands) {
+  constexpr int kLevels[] = {3, 5};  // one after the other
+  const int before = demands.fine_places.empty() ? 0 : demands.fine_places.back().level;
+  const int* level = std::upper_bound(std::begin(kLevels), std::end(kLevels), before);
+  if (thin.empty() || level == std::end(kLevels)) return false;
+  for (const Vec3& place : thin) demands.fine_places.push_back({place, *level});
+  return true;
+}
+
 }  // namespace
 
 double spacing_for_density(double vertices_per_A2) { return std::sqrt(2.0 / (std::sqrt(3.0) * vertices_per_A2)); }
@@ -221,31 +233,23 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
     if (options.measure_distance) measure();
   } else {
     // Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another
-    // attempt. So does a small angle that is left: triangles that bridge what is finer than they are cannot always be
-    // mended, but what is traced from smaller cells can.
+    // attempt.
     constexpr int kMostAttempts = 4;
-    constexpr int kFinerLevels[] = {3, 5};
     SizeTargets targets;
     targets.spacing = options.spacing;
     targets.tolerance = options.tolerance;
-    int attempt = 0;
-    auto finer = std::begin(kFinerLevels);
-    for (;;) {
+    for (int attempt = 0; attempt < kMostAttempts;) {
       SurfaceMesh traced = trace();
       const GaussianField used(atoms, options.decay, report.isovalue_used);
       std::vector<Vec3> thin;
       is_good = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result, thin) ||
                 improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result, thin);
       if (!is_good) break;
-      if (!thin.empty() && finer != std::end(kFinerLevels)) {
-        for (const Vec3& place : thin) demands.fine_places.push_back({place, *finer});
-        ++finer;
-        continue;
-      }
+      if (ask_for_finer_trace(thin, demands)) continue;
       if (options.measure_distance || options.tolerance > 0.0) measure();
       watch.finished("verify");
       if (options.tolerance == 0.0 || *report.surface_distance <= options.tolerance) break;
-      if (++attempt == kMostAttempts) break;
+      ++attempt;
       targets.tolerance *= 0.6;
     }
   }

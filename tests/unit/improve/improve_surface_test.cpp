@@ -122,6 +122,17 @@ TEST_CASE("a tolerance makes smaller triangles, until they are as near to the su
   CHECK_THROWS_AS(mesh_surface(atoms, o), OptionError);
 }
 
+TEST_CASE("where a mesh takes several attempts, its boxes are those of the last one") {
+  MeshOptions o = improved(2.0, 1.0, 0.8);
+  o.tolerance = 0.05;
+  int attempts = 0;
+  o.on_stage_end = [&](const std::string& stage) { attempts += stage == "improve"; };
+  const std::vector<BoxCount> boxes = mesh_surface(molecule("1a1p"), o).report.boxes;
+  REQUIRE(attempts > 1);
+  REQUIRE(!boxes.empty());
+  for (std::size_t i = 1; i < boxes.size(); ++i) CHECK(boxes[i].size == 0.5 * boxes[i - 1].size);
+}
+
 TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only") {
   const std::vector<Atom> atoms = molecule("2y29_wat");
   const MeshResult traced = mesh_surface(atoms, options(0.6, 1.7, 0.5));
