@@ -200,7 +200,9 @@ unsigned SplitLattice::fold_axes(const LatticeKey& face) const {
 /// What is proven of a cell holds for its children too.
 void SplitLattice::split_certified(const LeafCell& cell, Branch& branch) {
   branch.split.push_back(cell.key);
-  for (int c = 0; c < 8; ++c) branch.leaves.push_back({child_cell(cell.key, c), cell.direction, cell.single_axes, true});
+  for (int c = 0; c < 8; ++c) {
+    branch.leaves.push_back({child_cell(cell.key, c), cell.direction, cell.single_axes, true});
+  }
 }
 
 /// Where no axis was found for a cell, atoms that its list leaves out are often the reason: its parts take them.

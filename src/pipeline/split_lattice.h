@@ -188,7 +188,7 @@ class SplitLattice {
   const CellStore& store_;
   TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
-  KeyIndex<CellKey, CellKeyHash> folds_;  ///< the cells that keep their size, which many faces ask about, and all round them
+  KeyIndex<CellKey, CellKeyHash> folds_;  ///< cells that keep their size, which many faces ask about, and all round them
   std::vector<FoldMark> fold_marks_;      ///< by number in folds_
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
