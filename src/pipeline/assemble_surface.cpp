@@ -242,6 +242,7 @@ class CellPatcher {
       if (for_improvement_) {
         if (turn < kLeastNormalCosine) return true;
         if (turn < kAlmostFlat && is_bridge(longest_side(p, q, r), key, value_at)) return true;
+        continue;  // none is left that would be suspect
       }
       if (turn > kSuspect) continue;
       const Vec3 a = to_angstrom(p.position), b = to_angstrom(q.position), c = to_angstrom(r.position);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "core/give_back_memory.h"
 #include "core/lattice_degenerate.h"
@@ -174,21 +175,20 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
   return std::move(trace.surface);
 }
 
-/// Improves a traced mesh; `result` gets it with the judge's verdict, and `thin` the corners of triangles with small
-/// angles that are left. @return whether it may be given out
-bool improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
-             int threads, Stopwatch& watch, MeshResult& result, std::vector<Vec3>& thin) {
+/// Improves a traced mesh; `result` gets it with the judge's verdict.
+/// @return the corners of triangles with small angles that are left; nothing if the mesh may not be given out
+std::optional<std::vector<Vec3>> improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
+                                         Guarding guarding, int threads, Stopwatch& watch, MeshResult& result) {
   const auto& on_progress = result.report.options.on_improving;
   const std::int64_t chi = euler_number(traced.mesh);
-  result.mesh = {};  // of an attempt before
   ImprovedSurface improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
   const bool same_topology = euler_number(improved.surface.mesh) == chi;
   take_mesh(std::move(improved.surface), result);
-  thin = std::move(improved.thin);
   watch.finished("improve");
   result.report.check = check_mesh(result.mesh);
   watch.finished("verify");
-  return same_topology && result.report.check.fit_for_solver();
+  if (!same_topology || !result.report.check.fit_for_solver()) return std::nullopt;
+  return std::move(improved.thin);
 }
 
 /// Asks for smaller cells where small angles are left: triangles that bridge what is finer than they are cannot always
@@ -220,7 +220,10 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
   const GaussianField field(atoms, options.decay, options.isovalue);
   watch.finished("field");
   TraceDemands demands{options.spacing, options.improve};
-  const auto trace = [&] { return certified_trace(field, atoms, demands, threads, watch, report); };
+  const auto trace = [&] {
+    take_mesh({}, result);  // that of an attempt before makes room
+    return certified_trace(field, atoms, demands, threads, watch, report);
+  };
   const auto measure = [&] {
     const TwoSidedDistance d = two_sided_distance(result.mesh, atoms, options.decay, report.isovalue_used);
     report.surface_distance = std::max(d.mesh_to_surface, d.surface_to_mesh);
@@ -241,11 +244,11 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
     for (int attempt = 0; attempt < kMostAttempts;) {
       SurfaceMesh traced = trace();
       const GaussianField used(atoms, options.decay, report.isovalue_used);
-      std::vector<Vec3> thin;
-      is_good = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result, thin) ||
-                improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result, thin);
+      auto thin = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result);
+      if (!thin) thin = improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result);
+      is_good = thin.has_value();
       if (!is_good) break;
-      if (ask_for_finer_trace(thin, demands)) continue;
+      if (ask_for_finer_trace(*thin, demands)) continue;
       if (options.measure_distance || options.tolerance > 0.0) measure();
       watch.finished("verify");
       if (options.tolerance == 0.0 || *report.surface_distance <= options.tolerance) break;

@@ -19,12 +19,13 @@ inline Lattice lattice_of(double spacing) {
   return lattice;
 }
 
-/// The cell of level 0 that a point is in.
-inline CellKey cell_at(const Lattice& lattice, const Vec3& p) {
-  CellKey key;
+/// The cell of a level that a point is in.
+inline CellKey cell_at(const Lattice& lattice, const Vec3& p, int level = 0) {
+  CellKey key{{}, level};
+  const std::int64_t size = fine_size(level);
   for (int k = 0; k < 3; ++k) {
-    const double n = std::floor((p[k] - to_angstrom(lattice.offset[k])) / lattice.cell_size());
-    key.lo[k] = static_cast<std::int64_t>(n) * kFinePerCell;
+    const double n = std::floor((p[k] - to_angstrom(lattice.offset[k])) / to_angstrom(lattice.step * size));
+    key.lo[k] = static_cast<std::int64_t>(n) * size;
   }
   return key;
 }

@@ -37,12 +37,7 @@ TEST_CASE("cells are to be split that are nearer to a place than cells there are
     int near = 0, far = 0;
     for (int level = 0; level <= 6; ++level) {
       const std::int64_t size = fine_size(level);
-      CellKey around = cell_at(lattice, place.at);
-      around.level = level;
-      for (int k = 0; k < 3; ++k) {
-        const double n = std::floor((place.at[k] - to_angstrom(lattice.offset[k])) / to_angstrom(lattice.step * size));
-        around.lo[k] = static_cast<std::int64_t>(n) * size;
-      }
+      const CellKey around = cell_at(lattice, place.at, level);
       for (int i = 0; i < 343; ++i) {
         CellKey cell = around;
         for (int k = 0, rest = i; k < 3; ++k, rest /= 7) cell.lo[k] += (rest % 7 - 3) * size;
