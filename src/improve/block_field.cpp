@@ -25,6 +25,9 @@ constexpr double kLeastRoughSlope = 0.03;
 constexpr std::size_t kRoughLanes = 16;
 constexpr float kNoWeight = -1e30f;
 
+/// Exact lists are long, and asked for by one place after the other: more at a time are not worth their memory.
+constexpr std::size_t kMostExactLists = 256;
+
 /// Lists are asked for with points this much outside their cells (in cells) by way of a Newton step.
 constexpr double kMargin = 0.1;
 
@@ -154,7 +157,12 @@ const NearAtoms& BlockField::atoms_around(const std::array<int, 3>& cell) {
 const NearAtoms& BlockField::atoms_at(const Vec3& point) {
   const std::array<int, 3> cell = cell_of(point);
   NearAtoms& list = lists_[number_of(cell)];
-  if (list.size() == 0) list.restrict_from(atoms_around(cell), box_around(cell, 1), decay_, kExactCut);
+  if (list.size() > 0) return list;
+  if (lists_made_++ == kMostExactLists) {
+    for (NearAtoms& other : lists_) other = {};
+    lists_made_ = 1;
+  }
+  list.restrict_from(atoms_around(cell), box_around(cell, 1), decay_, kExactCut);
   return list;
 }
 

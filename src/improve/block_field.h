@@ -80,7 +80,8 @@ class BlockField {
   bool is_rough_usable_;  ///< no log-weight is so large that single precision would lose the surface
   NearAtoms atoms_, some_;
   std::vector<NearAtoms> group_lists_;   ///< by group; no atoms: not yet made
-  std::vector<NearAtoms> lists_;         ///< by cell, the same
+  std::vector<NearAtoms> lists_;         ///< by cell, the same; given back when there are too many
+  std::size_t lists_made_ = 0;           ///< since then
   std::vector<RoughAtoms> rough_lists_;  ///< the same
 };
 
