@@ -132,16 +132,4 @@ struct SurfaceDistance {
 SurfaceDistance distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                     double isovalue);
 
-/// Reads an OFF file: comments, blank lines, CRLF and colours after a face are accepted; faces must be triangles.
-///
-/// A vertex number that is too large is not an error here: check_mesh counts it.
-///
-/// @throws InputError if the file cannot be read or is not such a file; the message names the line
-///
-/// Cost: one pass over the file in memory. What it announces is believed only as far as the file is long.
-TriangleMesh read_off(const std::filesystem::path& path);
-
-/// Reads OFF text that is already in memory; `name` stands for the file in messages.
-TriangleMesh parse_off(std::string_view text, std::string_view name);
-
 }  // namespace gaussmesh

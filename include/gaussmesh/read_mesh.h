@@ -22,23 +22,21 @@ struct MeshFile {
 /// case, before a `.gz` if there is one; every other file is read as OFF. Of MSMS either file may be named: both
 /// are read.
 ///
-/// - OFF: as read_off() says.
+/// - OFF: comments, blank lines and colours after a face are passed over.
 /// - PLY: ascii and binary of either byte order; other properties and elements are passed over.
 /// - OBJ: `v`, `vn` and `f`, the rest is passed over. Normals are kept where every corner has that of its vertex.
 /// - STL: binary and ascii. Corners at the very same place become one vertex, in the order in which they first
-/// appear;
-///   corners that are merely near each other do not.
+///   appear; corners that are merely near each other do not.
 /// - Gmsh: versions 2.2 and 4.1 in ASCII. Triangles of 3 nodes are kept and elements of other kinds passed over;
-/// then
-///   nodes in no triangle are left out.
+///   then nodes in no triangle are left out.
 /// - smesh: nodes and facets of one triangle each, counted from 0 or from 1.
 /// - MSMS: with header or without; normals, and the nearest atom where every vertex has one.
 ///
-/// Normals are scaled to length 1. Nothing is judged here but the format: a vertex number that is too large is left to check_mesh() in all formats
-/// where vertices are numbered by their place.
+/// Normals are scaled to length 1. Nothing is judged here but the format: a vertex number that is too large is left to
+/// check_mesh() in all formats where vertices are numbered by their place. What a file announces is believed only as
+/// far as it is long.
 ///
-/// @throws InputError if the file cannot be read, or is not what its format says; the message names the line, or
-/// the
+/// @throws InputError if the file cannot be read, or is not what its format says; the message names the line, or the
 ///         byte of a binary file. Polygons of more than three corners are refused.
 ///
 /// Cost: one pass over the file in memory, about 0.1 us a triangle; STL sorts nothing, it hashes. Thread-safe.

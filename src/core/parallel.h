@@ -43,6 +43,7 @@ void parallel_for_workers(std::size_t count, int threads, int chunk, const MakeW
         if (!worker) worker.emplace(make_worker());
         (*worker)(i);
       } catch (...) {
+        worker.reset();  // it may have been left in the middle of something
 #pragma omp critical(gaussmesh_parallel_for)
         if (i < error_at) {
           error_at = i;

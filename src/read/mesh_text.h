@@ -1,6 +1,6 @@
 // What the readers of meshes share: lines of fields, numbers, errors, and one function for each format.
 //
-// Which format a file is in is read_mesh.cpp; OFF is read by the judge, verify/read_off.cpp.
+// Which format a file is in is read_mesh.cpp.
 #pragma once
 
 #include <charconv>
@@ -107,6 +107,7 @@ inline Normal to_normal(const Point& p) {
 
 MeshFile parse_gmsh(std::string_view text, std::string_view name);
 MeshFile parse_obj(std::string_view text, std::string_view name);
+MeshFile parse_off(std::string_view text, std::string_view name);
 MeshFile parse_ply(std::string_view bytes, std::string_view name);
 MeshFile parse_smesh(std::string_view text, std::string_view name);
 MeshFile parse_stl(std::string_view bytes, std::string_view name);

@@ -3,7 +3,6 @@
 #include "gaussmesh/read_mesh.h"
 
 #include "atoms/read_file.h"
-#include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
 
@@ -26,7 +25,7 @@ MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
   if (has_extension(name, ".smesh")) return parse_smesh(require_text(bytes, name), name);
   if (bytes.starts_with("<?xml") || bytes.starts_with("<VTKFile"))
     throw InputError(std::string(name) + ":1: expected a mesh in a format that is read, got XML; VTP is only written");
-  return {parse_off(bytes, name), {}};
+  return parse_off(require_text(bytes, name), name);
 }
 
 MeshFile read_mesh(std::istream& input, std::string_view name) { return parse_mesh(read_stream(input, name), name); }

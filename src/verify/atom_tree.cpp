@@ -5,7 +5,7 @@
 
 #include "verify/morton_order.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 Point centre_of(const Atom& atom) { return {atom.x, atom.y, atom.z}; }
@@ -92,4 +92,4 @@ double AtomTree::least_largest_exponent(const BoundingBox& place) const {
   return squared(atom.radius) - distance_sq;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

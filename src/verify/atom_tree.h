@@ -10,7 +10,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/bounding_box.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// Atoms sorted along a Morton curve, and boxes over groups of them, over groups of groups, and so on.
 ///
@@ -126,4 +126,4 @@ class AtomTree {
   std::vector<std::vector<Group>> levels_;  // the last has one group, of all
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

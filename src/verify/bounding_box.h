@@ -6,7 +6,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// All points with low <= x <= high; empty as made, until something is included.
 struct BoundingBox {
@@ -43,4 +43,4 @@ inline BoundingBox box_of(const TriangleMesh& mesh, const Triangle& triangle) {
   return box;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -18,6 +18,9 @@
 #include "verify/triangle_tree.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 constexpr std::size_t kMostParts = std::size_t{1} << 31;  // triangles or vertices: 32-bit numbers, with room

@@ -5,7 +5,7 @@
 
 #include "verify/lanes.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr float kSteps = 255.0f;
@@ -84,4 +84,4 @@ void CoarseBoxes::compare(std::size_t i, std::size_t first) {
       first, size_, meets_.data());
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

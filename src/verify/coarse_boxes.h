@@ -9,7 +9,7 @@
 
 #include "verify/bounding_box.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// A list of triangles' boxes in steps of 1/255 of the box round a place, one array for each of their sides.
 /// Rounding keeps the order of numbers, so that two boxes that meet there still do; some that do not may seem to.
@@ -74,4 +74,4 @@ class CoarseBoxes {
   std::size_t room_ = 0;
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

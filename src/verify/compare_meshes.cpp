@@ -11,10 +11,14 @@
 #include "gaussmesh/error.h"
 #include "verify/exact_orientation.h"
 #include "verify/nearest_triangle.h"
+#include "verify/parallel.h"
 #include "verify/triangle_tree.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 void require_usable(const TriangleMesh& mesh, const char* which) {
@@ -26,7 +30,7 @@ void require_usable(const TriangleMesh& mesh, const char* which) {
         throw InputError(name + "expected vertices for all triangles, got none with the number " +
                          std::to_string(vertex) + " that triangle " + std::to_string(t) + " names");
       for (const double x : mesh.vertices[vertex])
-        if (!(std::abs(x) <= kLargestCoordinate))
+        if (!(std::abs(x) <= kLargestExact))
           throw InputError(name + "expected coordinates within 1e60 A, got '" + std::to_string(x) +
                            "' for vertex " + std::to_string(vertex));
     }
@@ -144,17 +148,16 @@ OneSidedDistance measure_from(const TriangleMesh& from, const TriangleTree& from
                               const TriangleTree& to_tree, double density) {
   constexpr std::size_t kBlocksInPart = TriangleTree::kPatchBlocks;
   const std::vector<std::uint32_t> first_triangle = find_first_triangles(from);
-  std::vector<SampleSums> parts((from_tree.block_count() + kBlocksInPart - 1) / kBlocksInPart);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    Sampler sampler(from, to, to_tree, density);
-    const std::size_t end = std::min((part + 1) * kBlocksInPart, from_tree.block_count());
-    for (const std::uint32_t t : from_tree.blocks(part * kBlocksInPart, end)) {
-      sampler.sample(from.triangles[t], parts[part]);
-      for (const std::uint32_t vertex : from.triangles[t])
-        if (first_triangle[vertex] == t) sampler.sample_vertex(vertex, parts[part]);
-    }
-  }
+  std::vector<SampleSums> parts(chunk_count(from_tree.block_count(), kBlocksInPart));
+  parallel_for_chunks(
+      from_tree.block_count(), kBlocksInPart, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        Sampler sampler(from, to, to_tree, density);
+        for (const std::uint32_t t : from_tree.blocks(begin, end)) {
+          sampler.sample(from.triangles[t], parts[part]);
+          for (const std::uint32_t vertex : from.triangles[t])
+            if (first_triangle[vertex] == t) sampler.sample_vertex(vertex, parts[part]);
+        }
+      });
   return add_up(parts);
 }
 

@@ -6,9 +6,10 @@
 #include <span>
 
 #include "verify/exact_orientation.h"
+#include "verify/parallel.h"
 #include "verify/vector3.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 double size(const Point& a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
@@ -77,15 +78,13 @@ ChunkSums sum_chunk(const TriangleMesh& mesh, const EdgeTopology& topology, cons
 std::vector<Sums> sum_components(const TriangleMesh& mesh, const EdgeTopology& topology) {
   constexpr std::size_t kTrianglesInChunk = 8192;
   const std::vector<Point> origins = find_origins(mesh, topology);
-  std::vector<ChunkSums> chunks((mesh.triangles.size() + kTrianglesInChunk - 1) / kTrianglesInChunk);
-#pragma omp parallel
-  {
-    std::vector<std::uint32_t> place_of(origins.size(), kNowhere);
-#pragma omp for schedule(static)
-    for (std::size_t i = 0; i < chunks.size(); ++i)
+  std::vector<ChunkSums> chunks(chunk_count(mesh.triangles.size(), kTrianglesInChunk));
+  parallel_for_workers(chunks.size(), [&] {
+    return [&, place_of = std::vector<std::uint32_t>(origins.size(), kNowhere)](std::size_t i) mutable {
       chunks[i] = sum_chunk(mesh, topology, origins, i * kTrianglesInChunk,
                             std::min((i + 1) * kTrianglesInChunk, mesh.triangles.size()), place_of);
-  }
+    };
+  });
   std::vector<Sums> sums(origins.size());
   for (std::size_t c = 0; c < sums.size(); ++c) sums[c].origin = origins[c];
   for (const ChunkSums& chunk : chunks)
@@ -168,15 +167,14 @@ std::vector<ComponentGeometry> measure_components(const TriangleMesh& mesh, cons
   std::vector<ComponentGeometry> components(sums.size());
   std::vector<bool> is_closed;
   for (const ComponentTopology& component : topology.components) is_closed.push_back(component.closed);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t c = 0; c < components.size(); ++c) {
+  parallel_for(components.size(), [&](std::size_t c) {
     components[c] = {sums[c].area, sums[c].volume, safe_volume_sign(sums[c]), {}};
-    if (components.size() == 1 || !is_closed[c]) continue;
+    if (components.size() == 1 || !is_closed[c]) return;
     components[c].around = find_components_around(sums[c].origin, mesh, topology.component_of, is_closed, tree);
     std::erase(components[c].around, static_cast<std::uint32_t>(c));  // it is on this one, not inside
-  }
+  });
   settle_volume_signs(mesh, topology, sums, components);
   return components;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -8,7 +8,7 @@
 #include "verify/edge_topology.h"
 #include "verify/triangle_tree.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// One component of EdgeTopology::components.
 struct ComponentGeometry {
@@ -47,4 +47,4 @@ std::vector<std::uint32_t> find_components_around(const Point& p, const Triangle
 std::vector<ComponentGeometry> measure_components(const TriangleMesh& mesh, const EdgeTopology& topology,
                                                   const TriangleTree& tree);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

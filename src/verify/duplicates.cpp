@@ -6,11 +6,13 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 #include "verify/exact_orientation.h"
+#include "verify/parallel.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr std::size_t kParts = 256;
@@ -74,14 +76,13 @@ std::size_t count_in_part(const std::vector<Point>& points, std::span<const std:
 
 std::size_t count_duplicates(const std::vector<Point>& points) {
   const Parts parts = part_points(points);
-  std::size_t duplicates = 0;
-#pragma omp parallel reduction(+ : duplicates)
-  {
-    std::vector<std::uint32_t> table;
-#pragma omp for schedule(dynamic)
-    for (std::size_t i = 0; i < kParts; ++i) duplicates += count_in_part(points, parts.part(i), table);
-  }
-  return duplicates;
+  std::array<std::size_t, kParts> duplicates{};
+  parallel_for_workers(kParts, [&] {
+    return [&, table = std::vector<std::uint32_t>()](std::size_t i) mutable {
+      duplicates[i] = count_in_part(points, parts.part(i), table);
+    };
+  });
+  return std::accumulate(duplicates.begin(), duplicates.end(), std::size_t{0});
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -6,7 +6,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// The number of vertices at the very place of an earlier one; those without exact coordinates do not count.
 ///
@@ -14,4 +14,4 @@ namespace gaussmesh {
 /// Cost: O(n), 8 bytes a vertex. The answer does not depend on the number of threads.
 std::size_t count_duplicates(const std::vector<Point>& points);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -11,7 +11,9 @@
 #include <span>
 #include <utility>
 
-namespace gaussmesh {
+#include "verify/parallel.h"
+
+namespace gaussmesh::verify {
 namespace {
 
 /// A side of a triangle at a vertex, seen from there.
@@ -138,18 +140,18 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// One chunk is one thread's work.
+constexpr std::size_t kVerticesInChunk = 4096;
+
 Tally count_all(const TriangleMesh& mesh, const VertexStars& stars) {
-  constexpr std::size_t kVerticesInChunk = 4096;  // one chunk is one thread's work; each has its own result
-  const std::size_t chunks = (mesh.vertices.size() + kVerticesInChunk - 1) / kVerticesInChunk;
-  std::vector<Tally> tallies(chunks);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    SpokeList spokes;
-    const std::size_t end = std::min((chunk + 1) * kVerticesInChunk, mesh.vertices.size());
-    for (std::size_t v = chunk * kVerticesInChunk; v < end; ++v) {
-      count_vertex(mesh, stars.star(v), static_cast<std::uint32_t>(v), spokes, tallies[chunk]);
-    }
-  }
+  std::vector<Tally> tallies(chunk_count(mesh.vertices.size(), kVerticesInChunk));
+  parallel_for_chunks(
+      mesh.vertices.size(), kVerticesInChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        SpokeList spokes;
+        for (std::size_t v = begin; v < end; ++v) {
+          count_vertex(mesh, stars.star(v), static_cast<std::uint32_t>(v), spokes, tallies[chunk]);
+        }
+      });
   Tally all;
   for (const Tally& tally : tallies) {
     all.counts.boundary_edges += tally.counts.boundary_edges;
@@ -213,18 +215,16 @@ void unite_star(const TriangleMesh& mesh, const VertexStars& stars, std::uint32_
 DisjointSets unite_neighbours(const TriangleMesh& mesh, const VertexStars& stars,
                               const std::vector<std::uint32_t>& nonmanifold_vertices) {
   DisjointSets sets(mesh.triangles.size());
-#pragma omp parallel
-  {
+  parallel_for_chunks(stars.vertex_count(), kVerticesInChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
     SpokeList spokes;
-#pragma omp for schedule(static)
-    for (std::size_t v = 0; v < stars.vertex_count(); ++v) {
+    for (std::size_t v = begin; v < end; ++v) {
       const auto vertex = static_cast<std::uint32_t>(v);
       const bool is_manifold =
           nonmanifold_vertices.empty() ||
           !std::binary_search(nonmanifold_vertices.begin(), nonmanifold_vertices.end(), vertex);
       unite_star(mesh, stars, vertex, is_manifold, spokes, sets);
     }
-  }
+  });
   return sets;
 }
 
@@ -291,4 +291,4 @@ EdgeTopology find_edge_topology(const TriangleMesh& mesh, const VertexStars& sta
   return result;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -7,7 +7,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/vertex_stars.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// Triangles connected through shared edges.
 struct ComponentTopology {
@@ -38,4 +38,4 @@ struct EdgeTopology {
 /// triangle. The answer does not depend on the number of threads.
 EdgeTopology find_edge_topology(const TriangleMesh& mesh, const VertexStars& stars);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -1,6 +1,6 @@
 #include "verify/exact_orientation.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 /// As kOrient3dError: two differences, a product and a sum make four roundings, the sum of sizes five more.
@@ -51,4 +51,4 @@ Expansion<192> exact_determinant(const Point& a, const Point& b, const Point& c,
   return exact_minor(u, v, 1, 2) * w[0] + exact_minor(u, v, 2, 0) * w[1] + exact_minor(u, v, 0, 1) * w[2];
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

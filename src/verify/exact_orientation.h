@@ -11,18 +11,18 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/expansion.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 using PlanePoint = std::array<double, 2>;  ///< a point projected along an axis
 
 /// Coordinates between these sizes, or exactly 0, make exact signs: every difference of two of them is 0 or a
 /// multiple of 2^-252, so that products of three neither underflow nor overflow, nor do their rounding errors.
-inline constexpr double kSmallestCoordinate = 0x1p-200;
-inline constexpr double kLargestCoordinate = 0x1p200;
+inline constexpr double kSmallestExact = 0x1p-200;
+inline constexpr double kLargestExact = 0x1p200;
 
 /// Whether the orientation signs are exact for a point with this coordinate; false for NaN and infinity.
 inline bool is_exact_coordinate(double x) {
-  return x == 0.0 || (std::abs(x) >= kSmallestCoordinate && std::abs(x) <= kLargestCoordinate);
+  return x == 0.0 || (std::abs(x) >= kSmallestExact && std::abs(x) <= kLargestExact);
 }
 
 /// `point` without its coordinate `axis`; a counter-clockwise turn seen from +axis stays one.
@@ -86,4 +86,4 @@ inline int OrientedPlane::side(const Point& d) const {
   return size == 0.0 ? 0 : exact_determinant(a_, b_, c_, d).sign();
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

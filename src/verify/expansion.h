@@ -16,7 +16,7 @@
 #endif
 static_assert(FLT_EVAL_METHOD == 0, "exact arithmetic needs doubles that are rounded at every operation");
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// A sum or product of two doubles, and what rounding took from it: value + error is exact.
 struct Rounded {
@@ -145,4 +145,4 @@ class ExactSum {
   std::vector<double> terms_;  // as in Expansion
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

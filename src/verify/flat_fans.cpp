@@ -5,7 +5,7 @@
 
 #include "verify/exact_orientation.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 Turns turns_of(const Point& a, const Point& b, const Point& c) {
@@ -70,4 +70,4 @@ FanFacts find_flat_fans(const TriangleMesh& mesh, const VertexStars& stars, cons
   return facts;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

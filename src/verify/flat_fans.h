@@ -8,7 +8,7 @@
 #include "verify/edge_topology.h"
 #include "verify/vertex_stars.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// How a triangle turns seen along the three axes: bit k counter-clockwise, bit 3 + k clockwise, seen from the far
 /// end of axis k. No bit: it has zero area.
@@ -32,4 +32,4 @@ struct FanFacts {
 /// threads.
 FanFacts find_flat_fans(const TriangleMesh& mesh, const VertexStars& stars, const EdgeTopology& topology);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -4,9 +4,10 @@
 #include <span>
 
 #include "verify/coarse_boxes.h"
+#include "verify/parallel.h"
 #include "verify/triangle_pair.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 using NumberPair = std::array<std::uint32_t, 2>;
@@ -120,17 +121,14 @@ class PatchTester {
 
 Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree, const FanFacts& facts) {
   constexpr std::size_t kBlocksInChunk = TriangleTree::kPatchBlocks * kPatchesInChunk;
-  std::vector<Intersections> found((tree.block_count() + kBlocksInChunk - 1) / kBlocksInChunk);
-#pragma omp parallel
-  {
-    PatchTester tester(mesh, tree, facts);
-#pragma omp for schedule(dynamic)
-    for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
+  std::vector<Intersections> found(chunk_count(tree.block_count(), kBlocksInChunk));
+  parallel_for_workers(found.size(), [&] {
+    return [&, tester = PatchTester(mesh, tree, facts)](std::size_t chunk) mutable {
       const std::size_t end = std::min((chunk + 1) * kBlocksInChunk, tree.block_count());
       for (std::size_t first = chunk * kBlocksInChunk; first < end; first += TriangleTree::kPatchBlocks)
         tester.find_all(first, std::min(first + TriangleTree::kPatchBlocks, end), found[chunk]);
-    }
-  }
+    };
+  });
   Intersections all;
   for (const Intersections& part : found) {
     all.pairs += part.pairs;
@@ -140,4 +138,4 @@ Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& t
   return all;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -9,7 +9,7 @@
 #include "verify/flat_fans.h"
 #include "verify/triangle_tree.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// How many pairs of triangles meet, and which.
 struct Intersections {
@@ -29,4 +29,4 @@ struct Intersections {
 /// Cost: time in proportion to the triangles and to the pairs of triangles whose boxes meet; next to no memory.
 Intersections find_intersections(const TriangleMesh& mesh, const TriangleTree& tree, const FanFacts& facts);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

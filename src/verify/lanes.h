@@ -16,7 +16,7 @@
 #define GAUSSMESH_LANE_CLONES
 #endif
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 inline constexpr std::size_t kLanes = 8;
 
@@ -49,4 +49,4 @@ inline void exponentiate(Lanes& x) {
   x = p * (Lanes)exponent;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

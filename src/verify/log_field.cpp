@@ -5,7 +5,7 @@
 
 #include "verify/vector3.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr double kLeftOut = 1e-13;  // share of phi that may be missing
@@ -56,4 +56,4 @@ LogValue LogField::at(const Point& x) {
           curvature_bound(decay_, square / sum, mean)};
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -7,7 +7,7 @@
 #include "verify/atom_tree.h"
 #include "verify/bounding_box.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// log phi at a point.
 struct LogValue {
@@ -43,4 +43,4 @@ class LogField {
   std::vector<double> exponents_;  // theirs, at the point in hand
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -10,10 +10,14 @@
 #include "verify/atom_tree.h"
 #include "verify/component_geometry.h"
 #include "verify/exact_orientation.h"
+#include "verify/parallel.h"
 #include "verify/triangle_tree.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 /// What is asked of the atoms at a vertex.
@@ -58,7 +62,7 @@ JudgedTriangles find_judged(const TriangleMesh& mesh, const MeshCheck& check) {
 Point exact_centre(const Atom& atom) {
   Point centre{atom.x, atom.y, atom.z};
   for (double& x : centre)
-    if (std::abs(x) < kSmallestCoordinate) x = 0.0;
+    if (std::abs(x) < kSmallestExact) x = 0.0;
   return centre;
 }
 
@@ -88,13 +92,12 @@ std::vector<std::uint32_t> find_charges_outside(const TriangleMesh& mesh, const 
   for (const MeshComponent& component : check.components) is_closed.push_back(component.closed);
   const TriangleTree tree(judged.mesh);
   std::vector<std::uint8_t> is_outside(atoms.size());
-#pragma omp parallel for schedule(dynamic, 64)
-  for (std::size_t i = 0; i < atoms.size(); ++i) {
-    if (atoms[i].charge == 0.0) continue;
+  parallel_for(atoms.size(), [&](std::size_t i) {
+    if (atoms[i].charge == 0.0) return;
     const auto around =
         find_components_around(exact_centre(atoms[i]), judged.mesh, judged.component_of, is_closed, tree);
     is_outside[i] = around.size() % 2 == 0;
-  }
+  });
   std::vector<std::uint32_t> outside;
   for (std::size_t i = 0; i < atoms.size(); ++i)
     if (is_outside[i] != 0) outside.push_back(static_cast<std::uint32_t>(i));

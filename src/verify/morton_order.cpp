@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr int kBitsPerAxis = 10;
@@ -71,4 +71,4 @@ void sort_by_cell(std::span<MortonKey> keys) {
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = from[i];
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

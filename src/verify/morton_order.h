@@ -9,7 +9,7 @@
 
 #include "verify/bounding_box.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 inline constexpr std::size_t kKeysForThreads = 10000;  ///< so many are worth several threads
 
@@ -66,4 +66,4 @@ std::vector<std::uint32_t> morton_order(std::size_t count, const PointOf& point_
   return order;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -4,7 +4,7 @@
 
 #include "verify/vector3.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 double distance_sq_to_segment(const Point& p, const Point& a, const Point& b) {
@@ -54,4 +54,4 @@ NearestTriangle find_nearest_triangle(const Point& p, const TriangleMesh& mesh, 
   return best;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

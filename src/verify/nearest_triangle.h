@@ -6,7 +6,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/triangle_tree.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// Square of the distance of `p` from the nearest point of the triangle, which may be a segment or a point.
 double distance_sq_to_triangle(const Point& p, const Point& a, const Point& b, const Point& c);
@@ -24,4 +24,4 @@ struct NearestTriangle {
 NearestTriangle find_nearest_triangle(const Point& p, const TriangleMesh& mesh, const TriangleTree& tree,
                                       std::uint32_t guess);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

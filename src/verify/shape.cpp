@@ -8,7 +8,7 @@
 #include "verify/lanes.h"
 #include "verify/vector3.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr std::size_t kTrianglesInChunk = 8192;
@@ -317,4 +317,4 @@ MeshCheck measure_shape(const TriangleMesh& mesh) {
   return check;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

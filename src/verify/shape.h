@@ -4,7 +4,7 @@
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/triangle_mesh.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// Measures edges, angles, ratios and their histograms, Figs. 7 and 8 of [LCL15].
 ///
@@ -16,4 +16,4 @@ namespace gaussmesh {
 /// The answer does not depend on the number of threads: sums are made by chunks of fixed size.
 MeshCheck measure_shape(const TriangleMesh& mesh);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -7,10 +7,14 @@
 #include "gaussmesh/check_mesh.h"
 #include "verify/atom_tree.h"
 #include "verify/morton_order.h"
+#include "verify/parallel.h"
 #include "verify/surface_feet.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 constexpr std::size_t kPointsInRun =
@@ -44,18 +48,16 @@ template <class PointOf, class Receive>
 DistanceSums sum_over_feet(const AtomTree& tree, const Level& level, std::size_t count, const PointOf& point_of,
                            const Receive& receive) {
   const std::vector<std::uint32_t> order = morton_order(count, point_of);
-  std::vector<DistanceSums> parts((count + kPointsInRun - 1) / kPointsInRun);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t run = 0; run < parts.size(); ++run) {
-    const std::size_t begin = run * kPointsInRun;
-    const std::size_t size = std::min(kPointsInRun, count - begin);
+  std::vector<DistanceSums> parts(chunk_count(count, kPointsInRun));
+  parallel_for_chunks(count, kPointsInRun, [&](std::size_t run, std::size_t begin, std::size_t end) {
+    const std::size_t size = end - begin;
     std::array<Point, kPointsInRun> starts;
     std::array<Foot, kPointsInRun> feet;
     for (std::size_t i = 0; i < size; ++i) starts[i] = point_of(order[begin + i]);
     FootFinder(tree, level.decay, level.isovalue, level.reach, kPrecision)
         .find({starts.data(), size}, {feet.data(), size});
     for (std::size_t i = 0; i < size; ++i) receive(order[begin + i], feet[i], parts[run]);
-  }
+  });
   DistanceSums all;
   for (const DistanceSums& part : parts) {
     all.max = std::max(all.max, part.max);

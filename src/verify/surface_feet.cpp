@@ -8,7 +8,7 @@
 #include "gaussmesh/error.h"
 #include "verify/vector3.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 constexpr std::size_t kPointsInBlock = 64;  // they share a list of atoms
@@ -300,4 +300,4 @@ Foot FootFinder::find_slowly(const Point& start) {
   return foot;
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -12,7 +12,7 @@
 #include "verify/lanes.h"
 #include "verify/log_field.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// Where Newton's method along the gradient of log phi leads to from a point.
 struct Foot {
@@ -74,4 +74,4 @@ class FootFinder {
   LogField slow_field_;
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 using PlaneTriangle = std::array<PlanePoint, 3>;
@@ -136,4 +136,4 @@ bool meet_beyond_shared(const PlacedTriangle& s, const PlacedTriangle& t) {
   }
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -6,7 +6,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/exact_orientation.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// A triangle with what a test against others asks for at hand. Its three vertex numbers differ.
 struct PlacedTriangle {
@@ -28,4 +28,4 @@ struct PlacedTriangle {
 /// Exact for every configuration. Neither may have zero area.
 bool meet_beyond_shared(const PlacedTriangle& s, const PlacedTriangle& t);
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

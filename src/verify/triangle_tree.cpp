@@ -7,7 +7,7 @@
 #include "verify/lanes.h"
 #include "verify/morton_order.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 typedef float Sides __attribute__((vector_size(64)));
@@ -88,4 +88,4 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   while (levels_.back().size() > kFanOut) levels_.push_back(boxes_of_groups(levels_.back(), kFanOut));
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -10,7 +10,7 @@
 #include "gaussmesh/triangle_mesh.h"
 #include "verify/bounding_box.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// The triangles of a mesh in blocks of neighbours, blocks in patches, and boxes over blocks, over patches, over
 /// groups of patches, and so on.
@@ -142,4 +142,4 @@ class TriangleTree {
   std::vector<std::vector<BoundingBox>> levels_;  // [0]: of the patches; [k]: of kFanOut boxes of [k - 1] each
 };
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

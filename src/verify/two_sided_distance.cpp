@@ -6,11 +6,15 @@
 #include <cmath>
 
 #include "verify/nearest_triangle.h"
+#include "verify/parallel.h"
 #include "verify/surface_feet.h"
 #include "verify/triangle_tree.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 constexpr double kPrecision = 1e-5;  // A, of the feet
@@ -108,11 +112,10 @@ TwoSidedDistance two_sided_distance(const TriangleMesh& mesh, const std::vector<
   const AtomTree atom_tree = tree_for_surface(atoms, decay, isovalue);
   const TriangleTree tree(mesh);
   const Both both{mesh, tree, atom_tree, decay, isovalue};
-  std::vector<TwoSidedDistance> parts((tree.block_count() + kBlocksInRun - 1) / kBlocksInRun);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t part = 0; part < parts.size(); ++part)
-    parts[part] =
-        measure(both, tree.blocks(part * kBlocksInRun, std::min((part + 1) * kBlocksInRun, tree.block_count())));
+  std::vector<TwoSidedDistance> parts(chunk_count(tree.block_count(), kBlocksInRun));
+  parallel_for_chunks(tree.block_count(), kBlocksInRun, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = measure(both, tree.blocks(begin, end));
+  });
   TwoSidedDistance all;
   for (const TwoSidedDistance& part : parts) add(all, part);
   if (all.samples > 0) all.mean_mesh_to_surface /= static_cast<double>(all.samples);

@@ -5,7 +5,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 inline Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
@@ -17,4 +17,4 @@ inline Point cross(const Point& a, const Point& b) {
 
 inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

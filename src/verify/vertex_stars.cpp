@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 namespace {
 
 /// The vertices that a thread counts the triangles of: every thread goes through all triangles, and writes to its
@@ -46,4 +46,4 @@ VertexStars::VertexStars(const TriangleMesh& mesh)
   }
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -9,7 +9,7 @@
 
 #include "gaussmesh/triangle_mesh.h"
 
-namespace gaussmesh {
+namespace gaussmesh::verify {
 
 /// The numbers of the triangles at each vertex, in one array.
 ///
@@ -38,4 +38,4 @@ inline std::array<std::uint32_t, 2> others(const Triangle& triangle, std::uint32
   return {triangle[0], triangle[1]};
 }
 
-}  // namespace gaussmesh
+}  // namespace gaussmesh::verify

@@ -38,16 +38,25 @@ void write_records(WholeFile& file, std::size_t count, std::size_t longest, cons
   std::exception_ptr error;
 #pragma omp parallel if (blocks > 1)
   {
-    std::string buffer(std::min(kBlock, count) * longest, '\0');
+    std::string buffer;
 #pragma omp for ordered schedule(dynamic, 1)
     for (std::size_t block = 0; block < blocks; ++block) {
-      const std::size_t end = std::min((block + 1) * kBlock, count);
-      char* p = buffer.data();
-      for (std::size_t i = block * kBlock; i < end; ++i) p = put(p, i);
+      std::size_t size = 0;
+      std::exception_ptr failed;  // what is thrown must not leave the loop
+      try {
+        buffer.resize(std::min(kBlock, count) * longest);
+        const std::size_t end = std::min((block + 1) * kBlock, count);
+        char* p = buffer.data();
+        for (std::size_t i = block * kBlock; i < end; ++i) p = put(p, i);
+        size = static_cast<std::size_t>(p - buffer.data());
+      } catch (...) {
+        failed = std::current_exception();
+      }
 #pragma omp ordered
       {
         try {
-          if (!error) file.write({buffer.data(), static_cast<std::size_t>(p - buffer.data())});
+          if (!error) error = failed;
+          if (!error) file.write({buffer.data(), size});
         } catch (...) {
           error = std::current_exception();
         }

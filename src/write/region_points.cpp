@@ -9,6 +9,9 @@
 #include "verify/vector3.h"
 
 namespace gaussmesh {
+
+using namespace verify;
+
 namespace {
 
 /// Triangles tried for a component: where the largest lie in folds so thin that no point is under them, others do

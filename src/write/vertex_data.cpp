@@ -8,6 +8,9 @@
 
 namespace gaussmesh {
 
+using namespace verify;
+
+
 std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms,
                                               int threads) {
   constexpr std::size_t kBlock = 1024;

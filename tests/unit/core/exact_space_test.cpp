@@ -8,6 +8,7 @@
 #include "verify/triangle_pair.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 using testing::Random;
 
 namespace {

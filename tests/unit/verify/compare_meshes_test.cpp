@@ -13,6 +13,7 @@
 #include "verify/shapes.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 using shapes::cube;
 using shapes::icosphere;
 using shapes::moved;

@@ -7,6 +7,7 @@
 #include "catch2.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "verify/shapes.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 
 namespace {
 

@@ -14,6 +14,7 @@
 #include "verify/triangle_pair.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "support/random.h"
 
 using namespace gaussmesh;
+using namespace gaussmesh::verify;
 using namespace gaussmesh::testing;
 
 TEST_CASE("keys are sorted by cell, and equal cells keep their order, for any number of threads") {

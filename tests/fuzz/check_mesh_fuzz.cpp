@@ -1,4 +1,4 @@
-// Any bytes are an OFF mesh or an InputError; any mesh is judged without a crash, the same whichever way round.
+// Any bytes are a mesh or an InputError; any mesh is judged without a crash, the same whichever way round.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/read_mesh.h"
 
 namespace {
 
@@ -35,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr std::size_t kMostTriangles = 200;  // more only cost time
   try {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const gaussmesh::TriangleMesh mesh = gaussmesh::parse_off(text, "fuzz.off");
+    const gaussmesh::TriangleMesh mesh = gaussmesh::parse_mesh(text, "fuzz.off").mesh;
     if (mesh.triangles.size() <= kMostTriangles) judge_both_ways(mesh);
   } catch (const gaussmesh::InputError&) {
   }
