@@ -19,11 +19,12 @@ namespace gaussmesh {
 struct MeshOptions {
   double decay = 0.6;               ///< d, 1/A^2, 0.001 to 1000
   double isovalue = 1.7;            ///< c, 1e-9 to 1e9
-  double spacing = 0.5;             ///< edge of the cells (A), 0.01 to 1000: the size of the triangles
+  double spacing = 0.5;             ///< wanted mean edge (A), 0.01 to 200; where the mesh stays as traced, that of the
+                                    ///< cells, to 1000
   bool improve = true;              ///< make the triangles nearly equilateral; otherwise they stay as traced
   double tolerance = 0.0;           ///< largest MeshReport::surface_distance (A), to 1000; 0: no limit
   bool measure_distance = false;    ///< fill MeshReport::surface_distance also where there is no tolerance
-  int threads = 0;                  ///< 0: as many as there are processors
+  int threads = 0;                  ///< to 4096; 0: as many as there are processors
   bool allow_uncertified = false;   ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
   std::function<void(double share_done)> on_improving;         ///< called often within the stage `improve`, on any thread
@@ -86,12 +87,16 @@ struct MeshResult {
 /// Meshes the Gaussian surface of `atoms`.
 ///
 /// The mesh is closed, embedded and oriented (counter-clockwise seen from the solvent), every vertex is on the surface
-/// to within 1e-6 A, and it has the components, cavities and handles of the exact surface. Same bits for any number of
+/// to within 1e-6 A, and it has the components, cavities and handles of the exact surface: of the level
+/// MeshReport::isovalue_used, which is not c only where `allow_uncertified` was needed. Same bits for any number of
 /// threads and any order of the atoms. Time and memory grow with the area of the surface over the square of the spacing,
 /// and with the number of atoms.
 ///
 /// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
-/// @throws CannotMeshError  if phi < c everywhere, if the tolerance is not reached, or if c is so near a critical value that the topology is not certain
+/// @throws InputError       if there are no atoms, or one with a coordinate or radius that cannot be
+/// @throws CannotMeshError  if phi < c everywhere, if the tolerance is not reached, if c is so near a critical value that
+///                          the topology is not certain, or if the spacing is too large or too small for the arrays
+/// @throws InternalError    if the mesh is not what is promised here: nothing of it is given out
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options);
 
 /// The report as JSON; lengths in A and units spelt in the keys.

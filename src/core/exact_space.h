@@ -7,8 +7,7 @@
 
 namespace gaussmesh {
 
-/// Sign of the volume of the tetrahedron p q r s: +1 when r -> s -> ... sees s on the side that q - p, r - p turn
-/// counter-clockwise about. Exact while coordinates differ by less than 2^40 units (1100 A).
+/// Sign of det(q - p, r - p, s - p): +1 if p, q, r turn counter-clockwise seen from s. Exact while coordinates differ by less than 2^40 units (1100 A).
 inline int orientation(const CoordPoint& p, const CoordPoint& q, const CoordPoint& r, const CoordPoint& s) {
   __extension__ using Wide = __int128;
   const Wide ax = q[0] - p[0], ay = q[1] - p[1], az = q[2] - p[2];

@@ -48,7 +48,7 @@ class BlockField {
   FieldJet jet(const Vec3& point);
 
   /// Newton's method on log phi along its gradient, from a point near the surface.
-  /// @return nothing if that leads farther than `farthest` (A) away, or out of the box
+  /// @return nothing if that leads farther than `farthest` (A) away
   /// Cost: one or two sums over the atoms nearby.
   std::optional<Place> project(const Vec3& point, double farthest, Accuracy accuracy = Accuracy::kExact);
 

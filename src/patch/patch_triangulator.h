@@ -1,6 +1,7 @@
 // Triangles for the surface in ONE cell that is single-valued along a direction.
 //
-// The loops come from the curves on the cell's faces (trace/); cells that are not single-valued are patch/fold_cell.h.
+// The loops come from the curves on the cell's faces (trace/); cells that are not single-valued are
+// patch/fold_triangulator.h.
 #pragma once
 
 #include <cstdint>

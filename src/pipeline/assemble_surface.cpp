@@ -401,6 +401,7 @@ SurfaceMesh CellTriangulator::join(CellStore& store, TracedVertices& vertices, i
     first_triangle.push_back(first_triangle.back() + cells.triangles.size());
     first_point.push_back(first_point.back() + cells.points.size());
   }
+  vertex_number(first_point.back());  // the numbers of all are below
   resize_in_parallel(surface.mesh.triangles, first_triangle.back(), threads);
   parallel_for(patched_.size(), threads, [&](std::size_t i) {
     PatchedCells& cells = patched_[i];

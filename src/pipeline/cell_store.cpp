@@ -116,11 +116,11 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
     return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };
   });
   std::erase_if(all, [](const BuiltBrick& built) { return built.cells.empty(); });
-  std::uint32_t vertices = 0;
+  std::size_t vertices = 0;
   std::vector<std::size_t> first_cell{0};
   for (BuiltBrick& built : all) {
-    built.brick.first_vertex = vertices;
-    vertices += static_cast<std::uint32_t>(built.roots.size());
+    built.brick.first_vertex = vertex_number(vertices);
+    vertices += built.roots.size();
     first_cell.push_back(first_cell.back() + built.cells.size());
   }
   resize_in_parallel(cells_, first_cell.back(), threads);

@@ -41,11 +41,11 @@ struct SurfaceCell {
 static_assert(sizeof(SurfaceCell) == 20);
 
 /// A count that is kept in fewer bits.
-/// @throws InternalError if it does not fit, as of bricks and faces that the surface goes through hundreds of times
+/// @throws CannotMeshError if it does not fit, as of bricks and faces that the surface goes through hundreds of times
 template <typename Small>
 Small small_count(std::size_t count, const char* what) {
   if (count > std::numeric_limits<Small>::max()) {
-    throw InternalError(std::string("too many ") + what + ": choose a smaller spacing");
+    throw CannotMeshError(std::string("too many ") + what + "; choose a smaller spacing");
   }
   return static_cast<Small>(count);
 }

@@ -76,8 +76,9 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
   if (atoms.empty()) throw InputError("no atoms: expected at least one");
   for (const Atom& a : atoms) {
-    const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-    if (!(largest <= kLargestCoordinate) || !(a.radius >= 0.0 && a.radius <= kLargestRadius)) {
+    bool is_good = a.radius >= 0.0 && a.radius <= kLargestRadius;
+    for (const double x : {a.x, a.y, a.z}) is_good = is_good && std::abs(x) <= kLargestCoordinate;
+    if (!is_good) {
       throw InputError("an atom: expected coordinates within 1e6 A and a radius from 0 to 1e5 A, got (" +
                        number_text(a.x) + ", " + number_text(a.y) + ", " + number_text(a.z) + "), " +
                        number_text(a.radius));
@@ -135,9 +136,13 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
     for (const double sign : {-1.0, 1.0}) {
       isovalue_used = options.isovalue * (1.0 + sign * change);
       const GaussianField field(atoms, options.decay, isovalue_used);
-      TraceResult trace =
-          trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
-      if (trace.uncertified.empty()) return trace;
+      try {
+        TraceResult trace =
+            trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
+        if (trace.uncertified.empty()) return trace;
+      } catch (const LatticeDegenerate&) {
+        continue;  // no lattice fits this level; the next one may do
+      }
     }
   }
   throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) +

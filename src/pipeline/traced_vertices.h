@@ -46,7 +46,7 @@ class TracedVertices {
   const std::vector<std::uint32_t>& dropped() const { return dropped_; }
 
  private:
-  std::uint32_t next() const { return first_ + static_cast<std::uint32_t>(points_.size()); }
+  std::uint32_t next() const { return vertex_number(first_ + points_.size()); }
 
   const CellStore& store_;
   std::uint32_t first_;

@@ -21,9 +21,6 @@ constexpr double kNoTruncation = 60.0;
 /// leave out decides. Molecules of 1e5 atoms have several such edges.
 constexpr double kNeedsAllAtoms = 1e-4;
 
-/// No rounding error of log(phi / c) near the surface is larger.
-constexpr double kValueError = 1e-12;
-
 /// Roots are found to this (A), a tenth of the unit that coordinates are rounded to.
 constexpr double kRootTolerance = 1e-10;
 
@@ -209,11 +206,21 @@ void EdgeRootFinder::refine(const LazyModel& model, const Segment& s, double gue
   roots_.push_back(result);
 }
 
+double EdgeRootFinder::root_error(const LineRoot& root) const {
+  // log phi is off by the atoms left out and by rounding, of weights with exponents within the list's cut of zero. Its
+  // second derivative is 4 d^2 times the variance of the atoms' positions, a quarter of their range squared at most,
+  // less 2 d: where that cannot halve the slope within the error found so, the error is one.
+  const double d = field_.decay(), range = atoms_->hi[axis_] - atoms_->lo[axis_];
+  const double value_error = atoms_->tail + weight_error(2.0 * atoms_->w_size + atoms_->cut, atoms_->size());
+  const double slope = std::abs(root.gradient[axis_]), bend = d * d * range * range + 2.0 * d;
+  const double error = 2.0 * value_error / slope;
+  if (!(error * bend <= 0.5 * slope)) return std::numeric_limits<double>::infinity();
+  return kRootTolerance + error;
+}
+
 Coord EdgeRootFinder::snap(const LazyModel& model, const Segment& s, const LineRoot& root) const {
-  // The atoms left out move a root by up to their share of phi over its slope.
-  const double error = kRootTolerance + 2.0 * (atoms_->tail + kValueError) / std::abs(root.gradient[axis_]);
   const double at_units = root.position * kUnitsPerAngstrom;
-  const double slack = std::min(error * kUnitsPerAngstrom, double(hi_ - lo_[axis_])) + 1.0;
+  const double slack = std::min(root_error(root) * kUnitsPerAngstrom, double(hi_ - lo_[axis_])) + 1.0;
   const auto plane_below = [&](double x) {
     return static_cast<std::int64_t>(std::floor((x - double(lattice_.offset[axis_])) / double(lattice_.step)));
   };

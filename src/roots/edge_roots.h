@@ -71,6 +71,8 @@ class EdgeRootFinder {
   void isolate(const LazyModel& model, const Segment& segment);
   /// @param guess  as in EdgeEnds
   void refine(const LazyModel& model, const Segment& segment, double guess);
+  /// How far a root may be from the exact one (A); infinity where the slope is too small to tell.
+  double root_error(const LineRoot& root) const;
   /// The coordinate of a root, rounded, on the side of every lattice plane that the exact root is on: signs on the
   /// planes tell where distances do not.
   Coord snap(const LazyModel& model, const Segment& segment, const LineRoot& root) const;

@@ -1,6 +1,7 @@
 // The curves in which the surface cuts ONE rectangle of the lattice.
 //
-// The roots on its edges come from roots/; making loops of the curves on all faces of a cell is patch/.
+// The roots on its edges come from roots/; making loops of the curves on all faces of a
+// cell is pipeline/loop_collector.h.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "boxes/gradient_cone.h"
 #include "core/exact_plane.h"
 #include "field/local_atoms.h"
+#include "gaussmesh/error.h"
 #include "roots/edge_roots.h"
 #include "trace/face_certificate.h"
 
@@ -19,9 +21,8 @@ namespace gaussmesh {
 struct FaceRoot {
   std::uint32_t vertex = 0;  ///< its number in the mesh
   CoordPoint position{};
-  int boundary_side =
-      0;         ///< 0..3 counter-clockwise seen against the axis: low second, high first, high second, low first
-  int rise = 0;  ///< +1: the edge enters the molecule as its coordinate grows
+  int boundary_side = 0;  ///< 0..3 counter-clockwise against the axis: low second, high first, high second, low first
+  int rise = 0;           ///< +1: the edge enters the molecule as its coordinate grows
 };
 
 /// A piece of a curve, from vertex to vertex, with the molecule on its left seen against the face's axis.
@@ -32,6 +33,12 @@ struct Link {
 
 /// Marks vertex numbers that count points made by the tracer (or by a patch) and not those of the mesh.
 inline constexpr std::uint32_t kLocalVertex = 0x80000000u;
+
+/// A number for the mesh's own vertices. @throws CannotMeshError if there are too many
+inline std::uint32_t vertex_number(std::size_t number) {
+  if (number >= kLocalVertex) throw CannotMeshError("more than 2^31 vertices; choose a larger spacing");
+  return static_cast<std::uint32_t>(number);
+}
 
 /// Curves of a face: links between roots, through `points` where a chord would not do.
 struct FaceCurves {

@@ -433,6 +433,7 @@ TEST_CASE("atoms that cannot be are refused") {
   CHECK_THROWS_AS(mesh_surface({}, {}), InputError);
   for (const Atom& atom :
        {Atom{0, 0, 0, -1.0, 0}, Atom{0, 0, 0, nan, 0}, Atom{0, 0, 0, infinity, 0}, Atom{nan, 0, 0, 1, 0},
+        Atom{0, nan, 0, 1, 0}, Atom{0, 0, nan, 1, 0},
         Atom{0, infinity, 0, 1, 0}, Atom{0, 0, 2e6, 1, 0}, Atom{0, 0, 0, 2e5, 0}}) {
     CHECK_THROWS_AS(mesh_surface({{0, 0, 0, 1.5, 0}, atom}, {}), InputError);
   }

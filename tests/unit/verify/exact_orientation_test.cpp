@@ -135,13 +135,13 @@ TEST_CASE("orient3d is one answer for one set of points, however they are listed
 }
 
 TEST_CASE("signs are exact up to the ends of the range of coordinates") {
-  for (const double unit : {kSmallestCoordinate, kLargestCoordinate / 4}) {
+  for (const double unit : {kSmallestExact, kLargestExact / 4}) {
     CHECK(orient3d({0, 0, 0}, {unit, 0, 0}, {0, unit, 0}, {0, 0, unit}) == 1);
     CHECK(orient3d({unit, unit, unit}, {2 * unit, unit, unit}, {unit, 2 * unit, unit}, {3 * unit, unit, unit}) ==
           0);
     CHECK(orient2d({0, 0}, {unit, 0}, {unit, unit}) == 1);
   }
-  const double tiny = kSmallestCoordinate, huge = kLargestCoordinate;
+  const double tiny = kSmallestExact, huge = kLargestExact;
   CHECK(orient3d({0, 0, 0}, {huge, 0, 0}, {0, huge, 0}, {huge, huge, tiny}) == 1);
   CHECK(orient3d({0, 0, 0}, {huge, huge, 0}, {huge, huge, tiny}, {huge, huge, -tiny}) == 0);
   CHECK(is_exact_coordinate(0.0));
