@@ -102,12 +102,14 @@ void describe_trace(const TraceResult& trace, double cell_size, MeshReport& repo
   report.cells_cut_by_folds = trace.cells_cut_by_folds;
 }
 
-/// Critical points at the places where the proof gave up; several places have one point in common.
+/// Critical points with values near c at the places where the proof gave up; several places have one point in common.
 std::vector<CriticalPlace> critical_places(const GaussianField& field, const TraceResult& trace, double isovalue) {
   constexpr double kSamePoint = 1e-3;  // A
+  constexpr double kNearCritical = 1e-3;  // |log(phi / c)|; where it is more, the cells are too coarse for the surface
   std::vector<CriticalPlace> places;
   for (const UncertifiedPlace& place : trace.uncertified) {
     const CriticalPoint critical = find_critical_point(field, place.place);
+    if (!critical.converged || !(std::abs(std::log(critical.relative_value)) < kNearCritical)) continue;
     const bool known = std::any_of(places.begin(), places.end(), [&](const CriticalPlace& other) {
       double distance = 0.0;
       for (int k = 0; k < 3; ++k) distance = std::max(distance, std::abs(other.point[k] - critical.point[k]));
@@ -118,13 +120,24 @@ std::vector<CriticalPlace> critical_places(const GaussianField& field, const Tra
   return places;
 }
 
+std::string place_text(const Vec3& place) {
+  const auto coordinate = [&](int k) { return number_text(std::round(place[k] * 1e6) / 1e6 + 0.0, 13); };
+  return "(" + coordinate(0) + ", " + coordinate(1) + ", " + coordinate(2) + ")";
+}
+
+/// Where the proof gave up, and not because of the level.
+std::string coarse_message(const std::vector<UncertifiedPlace>& places) {
+  std::string message = "the surface is finer than the smallest parts of cells, of " +
+                        number_text(places.front().size, 3) + " A, at " + place_text(places.front().place);
+  if (places.size() > 1) message += " and " + std::to_string(places.size() - 1) + " more places";
+  return message + ". No proof of topology is possible there; choose a smaller spacing.";
+}
+
 std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue) {
   const CriticalPlace& first = places.front();
-  const auto coordinate = [&](int k) { return number_text(std::round(first.point[k] * 1e6) / 1e6 + 0.0, 13); };
-  std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at (" +
-                        coordinate(0) + ", " + coordinate(1) + ", " + coordinate(2) +
-                        ") the surface is singular at c = " + number_text(first.value, 15) + ", " +
-                        number_text(std::abs(isovalue - first.value), 3) + " away";
+  std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at " +
+                        place_text(first.point) + " the surface is singular at c = " + number_text(first.value, 15) +
+                        ", " + number_text(std::abs(isovalue - first.value), 3) + " away";
   if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
   return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
 }
@@ -165,6 +178,7 @@ SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>&
     report.certified = trace.uncertified.empty();
     if (!report.certified) {
       report.critical = critical_places(field, trace, options.isovalue);
+      if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
       if (!options.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options.isovalue));
       trace = trace_beside(atoms, options, demands, threads, watch, report.isovalue_used);
     }

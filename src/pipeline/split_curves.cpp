@@ -161,13 +161,17 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, std::span<C
   const Wanted edges = list_wanted(cells, edges_, threads, visit);
   std::vector<std::vector<EdgeRoot>> found(edges.keys.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
-    return [&, finder = EdgeRootFinder(field_, lattice_)](std::size_t c) mutable {
-      LocalAtoms& atoms = work[c].atoms;
+    return [&, finder = EdgeRootFinder(field_, lattice_), own = LocalAtoms(field_)](std::size_t c) mutable {
       for (const Task& task : edges.tasks[c]) {
         const int level = cells[c].leaves[task.leaf].key.level;
         for (std::uint32_t i = task.first; i < task.last; ++i) {
           const LatticeKey& edge = edges.keys[i];
           const FineIndex end = moved(edge.lo(), edge.axis, fine_size(edge.level));
+          const Box edge_box = lattice_box(lattice_, edge.lo(), end);
+          // One beside a larger cell may be longer than the cell that was split here: its atoms are not all.
+          const bool is_longer = edge.level < cells[c].key.level;
+          if (is_longer) own.move_to(edge_box);
+          LocalAtoms& atoms = is_longer ? own : work[c].atoms;
           const auto find = [&](const LocalModel& model) {
             const auto roots = finder.find(atoms.within(root_reach(edge.level)), model, edge.axis,
                                            lattice_.point(edge.lo()), lattice_.plane(edge.axis, end[edge.axis]),
@@ -177,8 +181,7 @@ void SplitLattice::find_edge_roots(std::span<const SplitCell> cells, std::span<C
           if (edge.level == level) {
             find(work[c].models[task.leaf]);
           } else {
-            find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(),
-                            lattice_box(lattice_, edge.lo(), end)));
+            find(LocalModel(atoms.within(proof_reach(edge.level)), field_.decay(), edge_box));
           }
         }
       }

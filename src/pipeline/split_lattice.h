@@ -15,7 +15,7 @@ namespace gaussmesh {
 /// A cell that got no certificate at the depth limit: the level is (nearly) singular there.
 struct UncertifiedPlace {
   Vec3 place{};
-  double size = 0.0;
+  double size = 0.0;  ///< A
 };
 
 /// Cells of any size that keep their size without a certificate, and what is cut along folds in them.
