@@ -1,6 +1,7 @@
 #include "check_command.h"
 
 #include "check_report.h"
+#include "output_options.h"
 #include "report_parts.h"
 #include "validators.h"
 
@@ -77,6 +78,7 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
 }
 
 int run_check(const CheckOptions& options) {
+  require_other_files({options.mesh, options.molecule.value_or("")}, {options.json.value_or("")});
   const CheckFindings found = find_all(options);
   put_report(findings_text(found), findings_json(found), options.json);
   return found.is_good() ? kGood : kCheckFailed;

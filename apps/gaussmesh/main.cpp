@@ -1,8 +1,13 @@
 // The program: options, exit codes, and what is said on the terminal.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <new>
 
 #include "check_command.h"
 #include "compare_command.h"
@@ -69,6 +74,18 @@ void handle_signals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is then an error of write()
 }
 
+/// Lets threads sleep while they wait for others. Left to itself libgomp lets them spin, and where other programs run
+/// too, they keep the processor from the thread that they wait for: beside one other busy program on two processors a
+/// small protein took 5 to 7 times as long. The environment is read once, before main(): so the program begins anew.
+void let_waiting_threads_sleep(char** argv) {
+#ifdef __linux__
+  if (::getenv("OMP_WAIT_POLICY") != nullptr || ::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  if (::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) ::execv("/proc/self/exe", argv);  // where it fails they spin
+#else
+  static_cast<void>(argv);
+#endif
+}
+
 /// Large arrays are given back to the system as soon as they are free. Left to itself, glibc keeps arrays of the size of
 /// those that were freed before, whose room the smaller ones that follow then break up.
 void keep_large_arrays_apart() {
@@ -94,8 +111,30 @@ std::string nearest_to(const CLI::App& program, const std::string& word) {
   return gaussmesh::nearest_name(word.substr(0, word.find('=')), names);
 }
 
+/// What is wrong with a line of the configuration file. The library names the line's key alone, as the last word.
+std::string config_message(const CLI::App& program, const std::string& what) {
+  const auto name = program.get_config_ptr()->as<std::string>();
+  const std::string key = what.substr(what.find_last_of(' ') + 1);
+  std::ifstream file(name);
+  std::size_t number = 0, found = 0;
+  for (std::string line; found == 0 && std::getline(file, line);) {
+    ++number;
+    if (line.find(key) != std::string::npos) found = number;
+  }
+  std::vector<std::string> names;
+  for (const CLI::Option* option : program.get_options()) {
+    for (const std::string& name_of_option : option->get_lnames()) names.push_back(name_of_option);
+  }
+  return name + ":" + (found > 0 ? std::to_string(found) + ":" : "") + " expected an option of gaussmesh, got '" + key +
+         "'; did you mean '" + gaussmesh::nearest_name(key, names) + "'?";
+}
+
 /// Says what is wrong with the command line, and what may have been meant.
 int fail_to_parse(const CLI::App& program, const CLI::ParseError& error, const std::string& first_word) {
+  if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr) {
+    std::cerr << "gaussmesh: " << config_message(program, error.what()) << "\n";
+    return kWrongUse;
+  }
   std::cerr << "gaussmesh: " << error.what();
   const std::vector<std::string> extras = program.remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(),
@@ -179,6 +218,9 @@ int run_and_tell(int argc, char** argv) {
     return fail(error, kCannotMesh);
   } catch (const NoRoomOnDisk& error) {
     return fail(error, kCannotMesh);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "gaussmesh: not enough memory; choose a larger --spacing, or set --max-memory\n";
+    return kCannotMesh;
   } catch (const std::exception& error) {
     return fail(error, kInternal);
   }
@@ -187,6 +229,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_waiting_threads_sleep(argv);
   keep_large_arrays_apart();
   handle_signals();
   const int code = run_and_tell(argc, argv);

@@ -6,6 +6,7 @@
 #include "gaussmesh/error.h"
 #include "gaussmesh/measure_mesh.h"
 #include "gaussmesh/write_mesh.h"
+#include "output_options.h"
 #include "report_parts.h"
 
 namespace gaussmesh::app {
@@ -83,6 +84,8 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
 }
 
 int run_measure(const MeasureCommand& command) {
+  require_other_files({command.mesh, command.molecule.value_or("")},
+                      {command.json.value_or(""), command.atom_areas.value_or("")});
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)

@@ -30,6 +30,17 @@ void require_sense(const MeshCommand& command) {
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
 }
 
+/// Finds out before the work what cannot be written, and what must not be.
+void require_separate_files(const MeshCommand& command) {
+  const WriteOptions writing = writing_options(command.writing, command.no_header);
+  std::vector<std::string> written{command.report};
+  for (const std::string& output : command.outputs) {
+    for (const std::filesystem::path& file : files_of(output, writing)) written.push_back(file.string());
+  }
+  require_other_files({command.molecule}, written);
+  require_writable_outputs(command.outputs, command.report, writing);
+}
+
 /// Where temporary files for an output belong.
 std::filesystem::path folder_of(const std::filesystem::path& output) {
   if (output == "-") return std::filesystem::temp_directory_path();
@@ -149,9 +160,10 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program
       .add_option_function<double>(
           "--density", [&command](double density) { command.options.spacing = spacing_for_density(density); },
-          "the same by vertices per area (1/A^2, 1e-6 to 1e4; default: none, --spacing 0.5 is 4.6)")
+          "the same by vertices per area (1/A^2, 3e-5 to 1e4, with --raw from 2e-6; default: none, --spacing 0.5 is "
+          "4.6)")
       ->type_name("V")
-      ->check(number_between(1e-6, 1e4))
+      ->check(number_between(2e-6, 1e4))
       ->excludes(spacing)
       ->group(triangles);
   CLI::Option* tolerance =
@@ -205,7 +217,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 
 int run_mesh(const MeshCommand& command) {
   require_sense(command);
-  require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header));
+  require_separate_files(command);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
   const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);

@@ -45,4 +45,14 @@ void require_writable_outputs(const std::vector<std::string>& outputs, const std
   require_writable(report);
 }
 
+void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    for (const std::string& input : inputs) {
+      std::error_code error;  // of files that are not there
+      if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error)) continue;
+      throw OptionError("expected another file to write than '" + input + "', which is read, got '" + output + "'");
+    }
+  }
+}
+
 }  // namespace gaussmesh::app

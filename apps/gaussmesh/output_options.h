@@ -22,4 +22,7 @@ WriteOptions writing_options(WriteOptions writing, bool no_header);
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
                               const WriteOptions& writing);
 
+/// Keeps what is read from being replaced by what is written. @throws OptionError where a file is both
+void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
 }  // namespace gaussmesh::app

@@ -62,6 +62,6 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, c
   return files;
 }
 
-void require_writable(const std::filesystem::path& path) { const WholeFile probe(path); }
+void require_writable(const std::filesystem::path& path) { WholeFile::require_writable(path); }
 
 }  // namespace gaussmesh

@@ -27,6 +27,17 @@ bool is_written_in_place(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+/// What a chain of links leads to, which need not be there.
+fs::path end_of_links(fs::path path) {
+  constexpr int kMostLinks = 40;  // as in Linux
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    const fs::path next = fs::read_symlink(path, error);
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  return path;
+}
+
 std::string random_letters() {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   std::random_device random;
@@ -40,15 +51,17 @@ std::string random_letters() {
 std::atomic<WholeFile::Unfinished*> WholeFile::unfinished_{nullptr};
 std::atomic<int> WholeFile::commits_under_way_{0};
 
-WholeFile::WholeFile(const fs::path& path) : path_(path), target_(path) {
+WholeFile::WholeFile(const fs::path& path) : path_(path), target_(end_of_links(path)) {
   if (path == "-") {
     descriptor_ = ::dup(STDOUT_FILENO);
     if (descriptor_ < 0) fail("cannot be opened");
     return;
   }
   std::error_code error;
-  if (fs::is_symlink(path, error)) target_ = fs::weakly_canonical(path, error);
-  if (error) target_ = path;
+  if (fs::is_symlink(target_, error)) {
+    errno = ELOOP;
+    fail("cannot be found");
+  }
   if (fs::is_directory(target_, error)) {
     throw InputError(path.string() + ": expected a file to write, got a directory");
   }
@@ -59,6 +72,15 @@ WholeFile::WholeFile(const fs::path& path) : path_(path), target_(path) {
   }
   if (fs::exists(target_, error) && ::access(target_.c_str(), W_OK) != 0) fail("cannot be replaced");
   make_temporary();
+}
+
+void WholeFile::require_writable(const fs::path& path) {
+  const bool is_device = path != "-" && is_written_in_place(path);
+  if (!is_device || fs::is_directory(path)) {
+    const WholeFile probe(path);
+  } else if (::access(path.c_str(), W_OK) != 0) {
+    throw InputError(path.string() + ": the output file cannot be opened: " + std::strerror(errno));
+  }
 }
 
 WholeFile::WholeFile(WholeFile&& other) noexcept
@@ -113,10 +135,12 @@ void WholeFile::write(std::string_view text) {
 void WholeFile::close() {
   if (descriptor_ < 0) return;
   if (temporary_ != nullptr) {
-    // So far only its owner reads it; give it the permissions that any new file would get.
+    // So far only its owner reads it; give it the permissions of what it replaces, or those of any new file.
+    struct stat old {};
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot be given its permissions");
+    const mode_t mode = ::stat(target_.c_str(), &old) == 0 ? old.st_mode & 0777 : 0666 & ~mask;
+    if (::fchmod(descriptor_, mode) != 0) fail("cannot be given its permissions");
   }
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be closed");
 }

@@ -11,11 +11,15 @@ namespace gaussmesh {
 /// Collects output in a temporary file beside `path`; commit() renames it. Without commit() nothing is left behind.
 ///
 /// Where there is no file that could be replaced - `-` for standard output, devices, pipes - the output goes there
-/// at once. A symbolic link is followed.
+/// at once. A symbolic link is followed, also where it leads to nothing yet. What is replaced keeps its permissions.
 class WholeFile {
  public:
   /// @throws InputError if no file can be made there
   explicit WholeFile(const std::filesystem::path& path);
+
+  /// Throws what the constructor would. A pipe is not opened: who reads it would take its closing for the end.
+  static void require_writable(const std::filesystem::path& path);
+
   ~WholeFile();
   WholeFile(WholeFile&& other) noexcept;
   WholeFile& operator=(WholeFile&&) = delete;

@@ -359,6 +359,14 @@ class Running(CliTest):
         report = self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--report", "-")
         self.assertEqual(json.loads(report.stdout)["atoms"], 3)
 
+    def test_threads_sleep_while_they_wait(self):
+        def spins(**environment):
+            return subprocess.run([settings.program, self.molecule("methanol"), "-o", self.mesh], check=True, text=True,
+                                  capture_output=True, env={**os.environ, "OMP_DISPLAY_ENV": "verbose", **environment}
+                                  ).stderr.split("GOMP_SPINCOUNT = ")[-1].split()[0]
+        self.assertEqual(spins(), "'0'")
+        self.assertNotEqual(spins(OMP_WAIT_POLICY="active"), "'0'", "the user has the last word")
+
     def test_quiet_and_verbose(self):
         quiet = self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--quiet")
         self.assertEqual(quiet.stdout + quiet.stderr, "")
@@ -372,8 +380,10 @@ class Running(CliTest):
         self.expect(0, self.molecule("methanol"), "--preset", "ses-area", "-o", self.mesh)
         self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
         self.assertIn("a.ply", self.files())
-        self.write("wrong.toml", "decya = 0.4\n")
-        self.assertIn("decya", self.expect(WRONG_USE, self.molecule("methanol"), "--config", "wrong.toml").stderr)
+        self.write("wrong.toml", "# decay\nspacing = 1\ndecya = 0.4\n")
+        self.assertEqual(self.expect(WRONG_USE, self.molecule("methanol"), "--config", "wrong.toml").stderr,
+                         "gaussmesh: wrong.toml:3: expected an option of gaussmesh, got 'decya'; did you mean "
+                         "'decay'?\n")
         self.expect(BAD_INPUT, self.molecule("methanol"), "--config", "none.toml")
 
     def test_the_nearest_name_is_told(self):
@@ -395,6 +405,38 @@ class Running(CliTest):
             self.expect(WRONG_USE, self.molecule("methanol"), "-o", "out.off", "-o", other)
         self.expect(WRONG_USE, self.molecule("methanol"), "-o", "out.off", "--report", "out.off")
         self.assertEqual(self.files(), [])
+
+    def test_what_is_read_is_not_replaced(self):
+        molecule = self.write("mol.pqr", self.molecule("methanol").read_text())
+        text = molecule.read_bytes()
+        (self.folder / "link.off").symlink_to("mol.pqr")
+        self.expect(0, "mol.pqr", "-o", self.mesh)
+        mesh = self.mesh.read_bytes()
+        for command in [["mol.pqr", "-o", "mol.pqr", "--format", "off"], ["mol.pqr", "-o", "link.off"],
+                        ["mol.pqr", "-o", "new.off", "--report", "./mol.pqr"],
+                        ["check", "out.off", "mol.pqr", "--json", "out.off"],
+                        ["measure", "out.off", "mol.pqr", "--atom-areas", "mol.pqr"]]:
+            self.assertIn("which is read", self.expect(WRONG_USE, *command).stderr)
+        self.assertEqual((molecule.read_bytes(), self.mesh.read_bytes()), (text, mesh))
+        self.assertEqual(self.files(), ["link.off", "mol.pqr", "out.off"])
+
+    def test_links_and_permissions(self):
+        (self.folder / "link.off").symlink_to("out.off")
+        self.expect(0, self.molecule("methanol"), "-o", "link.off")
+        self.assertTrue((self.folder / "link.off").is_symlink())
+        self.mesh.chmod(0o640)
+        self.expect(0, self.molecule("methanol"), "-o", "link.off")
+        self.assertEqual(self.mesh.stat().st_mode & 0o777, 0o640)
+        (self.folder / "loop.off").symlink_to("loop.off")
+        self.assertIn("symbolic links", self.expect(BAD_INPUT, self.molecule("methanol"), "-o", "loop.off").stderr)
+        self.assertEqual(self.files(), ["link.off", "loop.off", "out.off"])
+
+    def test_a_named_pipe(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        with subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE) as reader:
+            self.expect(0, self.molecule("methanol"), "-o", pipe, "--format", "off", "-o", self.mesh)
+            self.assertEqual(reader.communicate()[0], self.mesh.read_bytes())
 
     def test_full_disk(self):
         """The first file fits the limit, the second does not: neither appears."""
