@@ -53,7 +53,7 @@ def find_molecules(options):
     molecules = {}
     for path in files:
         other = molecules.setdefault(name_of(path), path)
-        if other is not path:
+        if other.resolve() != path.resolve():
             raise WrongUse(f"expected different names, got {other} and {path}")
     return molecules
 
@@ -69,14 +69,22 @@ def run(command, options):
         return str(error)
     if result.returncode == 0:
         return ""
-    last = (result.stderr.strip() or result.stdout.strip() or "no message").splitlines()[-1]
-    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {last}"
+    lines = (result.stderr.strip() or result.stdout.strip() or "no message").splitlines()
+    said = [line for line in lines if line.startswith("gaussmesh: ") and "warning" not in line] or lines
+    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {said[-1].removeprefix('gaussmesh: ')}"
 
 
-def is_done(path, mesh, report, stamp, wanted):
+def meshes_of(name, options):
+    """The files that tell whether a molecule has its mesh; of separate surfaces, the first one."""
+    stem = f"{name}_1" if "separate" in options.rest or "--cavities=separate" in options.rest else name
+    pair = {".vert", ".face"}
+    return [options.output / f"{stem}{end}" for end in (pair if options.extension in pair else {options.extension})]
+
+
+def is_done(path, meshes, report, stamp, wanted):
     """Whether the mesh is there, newer than its molecule, and made with the same options."""
     try:
-        return (mesh.exists() and report.exists() and stamp.read_text(encoding="utf-8") == wanted and
+        return (all(mesh.exists() for mesh in meshes) and report.exists() and stamp.read_text(encoding="utf-8") == wanted and
                 report.stat().st_mtime >= path.stat().st_mtime)
     except OSError:
         return False
@@ -89,7 +97,7 @@ def make_mesh(path, options):
     stamp, wanted = options.output / f".{name}.options", json.dumps([options.radii, options.force_field, options.rest])
     if not path.is_file():
         return "no such file"
-    if not options.again and is_done(path, mesh, report, stamp, wanted):
+    if not options.again and is_done(path, meshes_of(name, options), report, stamp, wanted):
         return ""
     with tempfile.TemporaryDirectory(prefix="mesh_batch_") as folder:
         source, extra = path, []
@@ -148,6 +156,8 @@ def parse_arguments(arguments):
     parser.add_argument("--timeout", type=float, default=3600.0, help="seconds for each program (default: 3600)")
     parser.add_argument("--again", action="store_true", help="make all meshes anew")
     options = parser.parse_args(own)
+    if options.jobs < 1 or options.threads < 0:
+        parser.error("--jobs: expected 1 or more, --threads: 0 or more")
     options.rest = rest
     return options
 
@@ -177,7 +187,11 @@ def main():
     except (WrongUse, OSError) as error:
         print(f"mesh_batch.py: {error}", file=sys.stderr)
         return 2
-    options.output.mkdir(parents=True, exist_ok=True)
+    try:
+        options.output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        print(f"mesh_batch.py: {error}", file=sys.stderr)
+        return 2
     failures = make_all(molecules, options)
     write_tables(molecules, failures, options)
     print(f"{len(molecules) - len(failures)} of {len(molecules)} molecules meshed; {options.output / 'table.csv'}"

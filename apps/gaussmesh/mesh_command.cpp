@@ -59,10 +59,15 @@ Product select_cavities(const MeshCommand& command, Product product) {
       command.cavities == "drop" ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
   const MeshCheck check = product.report.check;
   const ComponentList kept = leave_out_cavities(check, least);
-  if (kept.size() == check.components.size()) return product;
-  product.surface = extract_components(product.surface.mesh, product.surface.data, check, kept);
-  product.report.check = check_mesh(product.surface.mesh);
-  product.report.left_out = {check.components.size() - kept.size(), product.report.check.volume - check.volume};
+  if (kept.size() < check.components.size()) {
+    product.surface = extract_components(product.surface.mesh, product.surface.data, check, kept);
+    product.report.check = check_mesh(product.surface.mesh);
+    product.report.left_out = {check.components.size() - kept.size(), product.report.check.volume - check.volume};
+  }
+  if (command.cavities == "separate") {
+    const ComponentList order = outsides_first(product.report.check);
+    product.report.check = reorder_components(std::move(product.report.check), order);
+  }
   return product;
 }
 
@@ -87,7 +92,7 @@ std::string numbered(const std::string& output, std::size_t number) {
       .string();
 }
 
-/// Writes all meshes and the report, all of them or none; returns the name of the first.
+/// Writes all meshes and the report, all of them or none; returns what the first output became.
 std::string write_all(const MeshCommand& command, const Product& product) {
   const auto& [surface, report] = product;
   WriteOptions writing = writing_options(command.writing, command.no_header);
@@ -95,14 +100,13 @@ std::string write_all(const MeshCommand& command, const Product& product) {
   OutputFiles files;
   std::string first = command.outputs.front();
   if (command.cavities == "separate") {
-    first = numbered(first, 1);
-    std::size_t number = 0;
-    for (const std::uint32_t component : outsides_first(report.check)) {
+    const std::size_t count = report.check.components.size();
+    for (std::uint32_t component = 0; component < count; ++component) {
       const MeshFile part = extract_components(surface.mesh, surface.data, report.check, {component});
-      ++number;
       for (const std::string& output : command.outputs)
-        files.add_mesh(part.mesh, part.data, numbered(output, number), writing);
+        files.add_mesh(part.mesh, part.data, numbered(output, component + 1), writing);
     }
+    first = numbered(first, 1) + (count > 1 ? " to " + numbered(first, count) : "");
   } else {
     for (const std::string& output : command.outputs) files.add_mesh(surface.mesh, surface.data, output, writing);
   }

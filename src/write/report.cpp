@@ -31,7 +31,8 @@ Json components_json(const MeshCheck& check) {
                     {"chi", c.chi},
                     {"genus", c.genus},
                     {"area_A2", c.area},
-                    {"volume_A3", c.volume}});
+                    {"volume_A3", c.volume},
+                    {"parent", c.parent ? Json(*c.parent) : Json()}});
   }
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace gaussmesh {
 namespace {
@@ -30,6 +31,21 @@ ComponentList outsides_first(const MeshCheck& check) {
   std::iota(list.begin(), list.end(), 0u);
   std::stable_partition(list.begin(), list.end(), [&](std::uint32_t c) { return !is_cavity(check.components[c]); });
   return list;
+}
+
+MeshCheck reorder_components(MeshCheck check, const ComponentList& order) {
+  std::vector<std::uint32_t> place_of(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place_of[order[i]] = i;
+  std::vector<MeshComponent> components;
+  for (const std::uint32_t c : order) {
+    MeshComponent component = check.components[c];
+    if (component.parent) component.parent = place_of[*component.parent];
+    components.push_back(component);
+  }
+  check.components = std::move(components);
+  for (std::uint32_t& c : check.component_of)
+    if (c != kNoComponent) c = place_of[c];
+  return check;
 }
 
 MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,

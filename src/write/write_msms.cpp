@@ -3,7 +3,7 @@
 // Sanner, Olson, Spehner, Biopolymers 38:305 (1996); the columns are those of the MSMS manual: x y z, normal,
 // number of an analytical face, sphere, type; three vertices from 1, type, number of an analytical face. There are
 // no analytical faces here, so their numbers are 0 at vertices, and the component at faces; all types are 3, "in a
-// contact face". TABI-PB and VMD want the header, whose third line begins with the count; PyGBe and pbj want none.
+// contact face". TABI-PB wants the header, whose third line begins with the count; PyGBe, pbj and VMD want none.
 
 #include "write/mesh_writer.h"
 

@@ -343,7 +343,14 @@ class Surfaces(CliTest):
         for i in (1, 2, 3):
             self.run_program("check", f"out_{i}.off", "--json", "c.json")
             volumes.append(json.loads((self.folder / "c.json").read_text())["volume_A3"])
-        wanted = [kept["components"][i]["volume_A3"] for i in (0, 2, 1)]  # outsides first
+        self.assertEqual([c["parent"] for c in kept["components"]], [None, 0, 1])
+        said = self.expect(0, "shell.pqr", "--spacing", 1, "--cavities", "separate", "-o", self.mesh, "--report", "s.json")
+        self.assertRegex(said.stdout, "out_1.off to .*out_3.off: ")
+        report = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(self.kinds(report), ["outside", "outside", "cavity"])
+        self.assertEqual([c["parent"] for c in report["components"]], [None, 2, 0])
+        wanted = [c["volume_A3"] for c in report["components"]]
+        self.assertEqual(wanted, [kept["components"][i]["volume_A3"] for i in (0, 2, 1)], "outsides first")
         for got, volume in zip(volumes, wanted):
             self.assertAlmostEqual(got, volume, places=6)
 

@@ -84,6 +84,27 @@ class Batch(CliTest):
         self.assertTrue(all(new > old for new, old in zip(third, again)), "other options, other meshes")
 
 
+    def test_several_files_for_a_molecule(self):
+        """What is missing is made again: one of two files, the first of separate surfaces."""
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        for options, files in [(["--extension", ".vert"], ["m.vert", "m.face"]),
+                               (["--", "--cavities", "separate"], ["m_1.off"])]:
+            for missing in files:
+                self.assertEqual(self.batch("m.pqr", "./m.pqr", "--output", "out", *options).returncode, 0)
+                times = {name: (self.folder / "out" / name).stat().st_mtime_ns for name in files}
+                self.batch("m.pqr", "--output", "out", *options)
+                self.assertEqual({name: (self.folder / "out" / name).stat().st_mtime_ns for name in files}, times)
+                (self.folder / "out" / missing).unlink()
+                self.batch("m.pqr", "--output", "out", *options)
+                self.assertTrue((self.folder / "out" / missing).exists(), missing)
+
+    def test_says_what_the_program_said(self):
+        self.batch(self.molecule("methanol"), "--output", "out", "--", "--spacing", "0")
+        self.assertIn("exit 2: --spacing: expected a number", (self.folder / "out" / "failures.tsv").read_text())
+        self.assertEqual(self.batch(self.molecule("methanol"), "--output", "out", "--jobs", "0").returncode, 2)
+        self.write("file", "")
+        self.assertEqual(self.batch(self.molecule("methanol"), "--output", "file").returncode, 2)
+
     def test_stops_when_told_to(self):
         for i in range(8):
             shutil.copy(self.molecule("dmso"), self.folder / f"m{i}.pqr")
@@ -96,7 +117,9 @@ class Batch(CliTest):
         self.assertEqual(batch.returncode, 1)
         self.assertRegex(said, "^[1-4] of 8 molecules meshed")
         self.assertIn("m7.pqr\tnot reached", (self.folder / "out" / "failures.tsv").read_text())
-        wrong = self.batch("m0.pqr", "out/../m0.pqr", "--output", "out")
+        (self.folder / "other").mkdir()
+        shutil.copy(self.molecule("methanol"), self.folder / "other" / "m0.pqr")
+        wrong = self.batch("m0.pqr", "other/m0.pqr", "--output", "out")
         self.assertEqual(wrong.returncode, 2, wrong.stderr)
         self.assertIn("expected different names", wrong.stderr)
 
