@@ -90,7 +90,7 @@ def measured_run(command, timeout_s):
         errors.seek(0)
         text = errors.read().decode("utf-8", "replace").strip()
     wall = time.monotonic() - start
-    return process.returncode, text, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    return process.returncode, text, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024 / 1e6
 
 
 def ask_judge(options, mesh, molecule, run):

@@ -8,7 +8,7 @@
 set -euo pipefail
 
 build_packages=(g++ cmake make libeigen3-dev libcli11-dev zlib1g-dev nlohmann-json3-dev gemmi-dev tao-pegtl-dev)
-test_packages=(catch2 clang libomp-dev libclang-rt-dev python3 tetgen gmsh python3-meshio python3-vtk9
+test_packages=(catch2 clang clang-format-14 libomp-dev libclang-rt-dev python3 tetgen gmsh python3-meshio python3-vtk9
   python3-jsonschema python3-matplotlib pdb2pqr libbenchmark-dev)
 
 wanted=()

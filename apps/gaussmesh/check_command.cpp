@@ -41,13 +41,12 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
   command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads; -: standard input")
       ->type_name("MESH")
       ->required();
-  CLI::Option* molecule = command
-                              ->add_option("molecule", options.molecule,
-                                           "molecule that it should be the surface of: PQR, XYZR, PDB, mmCIF")
-                              ->type_name("MOL");
+  CLI::Option* molecule =
+      command
+          ->add_option("molecule", options.molecule, "molecule that it should be the surface of: PQR, XYZR, PDB, mmCIF")
+          ->type_name("MOL");
   const std::string surface = "Surface of the molecule";
-  for (CLI::Option* option : add_surface_options(*command, options.surface))
-    option->needs(molecule)->group(surface);
+  for (CLI::Option* option : add_surface_options(*command, options.surface)) option->needs(molecule)->group(surface);
   for (CLI::Option* option : add_molecule_options(*command, options.reading))
     option->needs(molecule)->group(option->check_lname("probe") ? surface : "Input");
   const std::string judgement = "Judgement";

@@ -26,9 +26,8 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options);
 
 /// Reads the mesh, judges it and says what was found.
 ///
-/// @return the exit code: 0 if the mesh is fit for a solver, its vertices are apart as asked for and, with a
-/// molecule, within the
-///         tolerance of the surface, and all charges are inside; else 5
+/// @return the exit code: 0 if the mesh is fit for a solver, its vertices are apart as asked for and, with a molecule,
+///         within the tolerance of the surface, and all charges are inside; else 5
 /// @throws InputError, OptionError
 int run_check(const CheckOptions& options);
 

@@ -101,16 +101,14 @@ std::string distance_text(const CheckFindings& found) {
   return "Distance from the surface\n" +
          line("  vertices         mean %.4g A, largest %.4g A, tolerance %.4g A\n", d.mean_vertex_distance,
               d.max_vertex_distance, *found.tolerance) +
-         line("  centroids        mean %.4g A, largest %.4g A\n", d.mean_centroid_distance,
-              d.max_centroid_distance) +
+         line("  centroids        mean %.4g A, largest %.4g A\n", d.mean_centroid_distance, d.max_centroid_distance) +
          line("  and middles of edges: mean %.4g A, largest %.4g A; from the surface to the mesh %.4g A\n",
               both.mean_mesh_to_surface, both.mesh_to_surface, both.surface_to_mesh) +
          line("  faces turned against the gradient  %zu\n", d.faces_against_gradient);
 }
 
 std::string verdict_text(const CheckFindings& found) {
-  if (found.is_good())
-    return "OK: fit for a solver" + std::string(found.tolerance ? ", and on the surface\n" : "\n");
+  if (found.is_good()) return "OK: fit for a solver" + std::string(found.tolerance ? ", and on the surface\n" : "\n");
   std::string reasons = found.mesh.triangles == 0 ? "; no triangle" : "";
   for (const Defect& defect : defects_of(found))
     if (defect.count != 0) reasons += line("; %zu %s", defect.count, defect.text);

@@ -15,14 +15,13 @@ namespace gaussmesh::app {
 struct CheckFindings {
   std::string name;  ///< of the file
   MeshCheck mesh;
-  std::optional<double> tolerance;  ///< of the vertices' distance (A); there if a molecule was given
-  std::optional<SurfaceDistance>
-      distance;  ///< from the molecule's surface; missing too where it cannot be measured
-  std::optional<TwoSidedDistance> two_sided;                  ///< likewise
+  std::optional<double> tolerance;            ///< of the vertices' distance (A); there if a molecule was given
+  std::optional<SurfaceDistance> distance;    ///< from the molecule's surface; missing too where it cannot be measured
+  std::optional<TwoSidedDistance> two_sided;  ///< likewise
   std::optional<std::vector<std::uint32_t>> charges_outside;  ///< atoms; likewise
   double separation = 0.0;                                    ///< of the vertices (A)
   bool separation_is_required = false;                        ///< nearer ones are a defect, and not only told
-  std::optional<NearVertices> near;  ///< nearer than that; missing where it cannot be measured
+  std::optional<NearVertices> near;                           ///< nearer than that; missing where it cannot be measured
 
   bool is_on_surface() const { return !tolerance || (distance && distance->max_vertex_distance <= *tolerance); }
   bool has_all_charges() const { return !charges_outside || charges_outside->empty(); }

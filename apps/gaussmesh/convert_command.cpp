@@ -9,18 +9,16 @@ namespace gaussmesh::app {
 CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   CLI::App* command = program.add_subcommand("convert", "write a mesh in other formats");
   command
-      ->add_option(
-          "input", options.input,
-          "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
+      ->add_option("input", options.input,
+                   "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
       ->type_name("MESH")
       ->required();
   command->add_option("output", options.outputs, "meshes to write; -: standard output")
       ->type_name("OUT...")
       ->required();
-  CLI::Option* molecule = command
-                              ->add_option("--molecule", options.molecule,
-                                           "molecule of the mesh, for the nearest atoms (default: none)")
-                              ->type_name("MOL");
+  CLI::Option* molecule =
+      command->add_option("--molecule", options.molecule, "molecule of the mesh, for the nearest atoms (default: none)")
+          ->type_name("MOL");
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   command->footer(

@@ -42,8 +42,7 @@ std::string help_text(const CLI::App& app) {
   for (const std::string& usage : usage_lines(app)) text += "  " + usage + "\n";
   for (const OptionGroup& group : option_groups(app)) {
     text += "\n" + group.name + ":\n";
-    for (const CLI::Option* option : group.options)
-      text += entry(names_and_value(*option), option->get_description());
+    for (const CLI::Option* option : group.options) text += entry(names_and_value(*option), option->get_description());
   }
   const auto commands = subcommands(app);
   if (!commands.empty()) text += "\nCommands:\n";

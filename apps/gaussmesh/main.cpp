@@ -86,8 +86,8 @@ void let_waiting_threads_sleep(char** argv) {
 #endif
 }
 
-/// Large arrays are given back to the system as soon as they are free. Left to itself, glibc keeps arrays of the size of
-/// those that were freed before, whose room the smaller ones that follow then break up.
+/// Large arrays are given back to the system as soon as they are free. Left to itself, glibc keeps arrays of the size
+/// of those that were freed before, whose room the smaller ones that follow then break up.
 void keep_large_arrays_apart() {
 #ifdef __GLIBC__
   constexpr int kLargeArray = 1 << 20;  // bytes
@@ -165,18 +165,14 @@ int run(int argc, char** argv) {
   program.footer(kFooter);
   program.formatter_fn([](const CLI::App* app, const std::string&, CLI::AppFormatMode) { return help_text(*app); });
   std::string manual;
-  program.add_option("--print-manual", manual, "man, bash or zsh")
-      ->check(one_of({"man", "bash", "zsh"}))
-      ->group("");
+  program.add_option("--print-manual", manual, "man, bash or zsh")->check(one_of({"man", "bash", "zsh"}))->group("");
   MeshCommand mesh;
   add_mesh_options(program, mesh);
   program.set_help_flag("-h,--help", "print this and exit")->group("Running");
-  program
-      .set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion, "print the version and exit")
+  program.set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion, "print the version and exit")
       ->group("Running");
   program
-      .set_config("--config", "",
-                  "read options from a TOML file; those on the command line come first (default: none)")
+      .set_config("--config", "", "read options from a TOML file; those on the command line come first (default: none)")
       ->type_name("FILE")
       ->group("Running");
   program.allow_config_extras(CLI::config_extras_mode::error);

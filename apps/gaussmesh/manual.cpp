@@ -46,7 +46,7 @@ void add_options(const CLI::App& app, std::ostream& out) {
 /// The names that the option takes; none where it takes something else.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   if (option.check_lname("preset")) return preset_names();
-  if (option.check_lname("radii")) return radius_sets();
+  if (option.check_lname("radii")) return radius_set_names();
   if (option.check_lname("input-format")) return atom_formats();
   if (option.check_lname("cavities")) return cavity_choices();
   std::vector<std::string> names;
@@ -129,8 +129,7 @@ std::string zsh_completion(const CLI::App& program) {
     for (const CLI::Option* option : dashed_options(app)) {
       for (const std::string& name : dashed_names(*option)) {
         std::string text = escaped(option->get_description(), "[]:\\");
-        for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
-          text.replace(at, 1, "'\\''");
+        for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4) text.replace(at, 1, "'\\''");
         const std::vector<std::string> choices = choices_of(*option);
         const std::string action = choices.empty() ? "_files" : "(" + join_names(choices, " ") + ")";
         out << " \\\n    '*" << name << "[" << text << "]"

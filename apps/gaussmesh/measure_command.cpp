@@ -19,14 +19,12 @@ struct Measured {
 };
 
 std::string measured_text(const Measured& found) {
-  std::string text = found.name +
-                     line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
+  std::string text = found.name + line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
                      components_text(found.mesh);
   if (!all_are_closed(found.mesh)) text += "  WARNING: the volume of what is not closed says nothing\n";
   if (!found.by_atoms) return text;
   const AtomMeasures& atoms = *found.by_atoms;
-  const auto exposed =
-      std::count_if(atoms.areas.begin(), atoms.areas.end(), [](double area) { return area > 0.0; });
+  const auto exposed = std::count_if(atoms.areas.begin(), atoms.areas.end(), [](double area) { return area > 0.0; });
   text += line("Atoms with a share of the area: %td of %zu\n", exposed, atoms.areas.size());
   return text + (atoms.vdw_distance
                      ? line("Mean relative distance from the van der Waals spheres: %.4f\n", *atoms.vdw_distance)

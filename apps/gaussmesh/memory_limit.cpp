@@ -88,8 +88,8 @@ struct Spool {
   std::array<Shelf, kSizes> shelves;
   std::uint64_t page_size = 0;  ///< bytes
   std::atomic_flag is_swept;    ///< by some thread, now
-  std::size_t sweep_at = 0;    ///< unit that is next to be unmapped
-  std::size_t sweep_left = 0;  ///< units from there on that belong to the same piece, or 0 where one begins
+  std::size_t sweep_at = 0;     ///< unit that is next to be unmapped
+  std::size_t sweep_left = 0;   ///< units from there on that belong to the same piece, or 0 where one begins
 };
 
 // Neither is ever destroyed: pieces are given back until the very end.

@@ -55,8 +55,7 @@ struct Product {
 
 /// The surface with its cavities as the command wants them, and what was done told in the report.
 Product select_cavities(const MeshCommand& command, Product product) {
-  const double least =
-      command.cavities == "drop" ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
+  const double least = command.cavities == "drop" ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
   const MeshCheck check = product.report.check;
   const ComponentList kept = leave_out_cavities(check, least);
   if (kept.size() < check.components.size()) {
@@ -200,8 +199,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->group(output);
 
   const std::string running = "Running";
-  program
-      .add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
+  program.add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
       ->type_name("N")
       ->check(number_between(0.0, 4096.0))
       ->group(running);

@@ -10,9 +10,9 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
   return {
       command
           .add_option("--radii", options.reading.radii,
-                      "radii of a PDB or mmCIF file: " + join_names(radius_sets(), ", ") + " (required for these)")
+                      "radii of a PDB or mmCIF file: " + join_names(radius_set_names(), ", ") + " (required for these)")
           ->type_name("NAME")
-          ->check(one_of(radius_sets())),
+          ->check(one_of(radius_set_names())),
       command
           .add_option("--input-format", options.reading.format,
                       join_names(atom_formats(), ", ") + " (default: by the extension, else PQR)")

@@ -10,11 +10,10 @@ namespace gaussmesh::app {
 std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
   std::string names;
   for (const MeshFormat& format : mesh_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
-  return {
-      command.add_option("--format", writing.format, "format of all meshes: " + names + " (default: by extension)")
-          ->type_name("NAME"),
-      command.add_flag("--no-header", no_header,
-                       "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
+  return {command.add_option("--format", writing.format, "format of all meshes: " + names + " (default: by extension)")
+              ->type_name("NAME"),
+          command.add_flag("--no-header", no_header,
+                           "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
 }
 
 WriteOptions writing_options(WriteOptions writing, bool no_header) {
@@ -49,7 +48,8 @@ void require_other_files(const std::vector<std::string>& inputs, const std::vect
   for (const std::string& output : outputs) {
     for (const std::string& input : inputs) {
       std::error_code error;  // of files that are not there
-      if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error)) continue;
+      if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error))
+        continue;
       throw OptionError("expected another file to write than '" + input + "', which is read, got '" + output + "'");
     }
   }

@@ -93,10 +93,9 @@ void ProgressBar::draw() {
   shown_ = std::max(shown_, share_done());
   const int filled = static_cast<int>(shown_ * kWidth);
   const double time_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  std::fprintf(
-      stderr, "\r\033[K[%s%s] %.0f %%, %.0f s%s%s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-      std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), 100.0 * shown_, time_s,
-      current_ < stages_.size() ? ", " : "", current_ < stages_.size() ? stages_[current_].name.c_str() : "");
+  std::fprintf(stderr, "\r\033[K[%s%s] %.0f %%, %.0f s%s%s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), 100.0 * shown_, time_s,
+               current_ < stages_.size() ? ", " : "", current_ < stages_.size() ? stages_[current_].name.c_str() : "");
   std::fflush(stderr);
 }
 

@@ -27,8 +27,7 @@ std::string line(const char* format, ...) {
 }
 
 bool all_are_closed(const MeshCheck& mesh) {
-  return std::all_of(mesh.components.begin(), mesh.components.end(),
-                     [](const MeshComponent& c) { return c.closed; });
+  return std::all_of(mesh.components.begin(), mesh.components.end(), [](const MeshComponent& c) { return c.closed; });
 }
 
 std::string components_text(const MeshCheck& mesh) {
@@ -74,8 +73,7 @@ void put_report(const std::string& text, const std::string& json, const std::opt
 
 void add_json_option(CLI::App& command, std::optional<std::string>& file) {
   command
-      .add_option("--json", file,
-                  "write what is found as JSON; -: to the terminal, and nothing else (default: none)")
+      .add_option("--json", file, "write what is found as JSON; -: to the terminal, and nothing else (default: none)")
       ->type_name("FILE");
 }
 

@@ -43,21 +43,19 @@ std::vector<std::string> preset_names() {
 }
 
 std::vector<CLI::Option*> add_surface_options(CLI::App& command, SurfaceOptions& options) {
-  CLI::Option* preset = command
-                            .add_option("--preset", options.preset,
-                                        "d, c and probe by name, instead of --d and --c: " + preset_table() +
-                                            " (default: ses-volume)")
-                            ->type_name("NAME")
-                            ->check(one_of(preset_names()));
-  CLI::Option* decay =
+  CLI::Option* preset =
       command
-          .add_option("--d,--decay", options.decay, "decay d of the Gaussians (1/A^2, 0.001 to 1000; default: 0.6)")
+          .add_option("--preset", options.preset,
+                      "d, c and probe by name, instead of --d and --c: " + preset_table() + " (default: ses-volume)")
+          ->type_name("NAME")
+          ->check(one_of(preset_names()));
+  CLI::Option* decay =
+      command.add_option("--d,--decay", options.decay, "decay d of the Gaussians (1/A^2, 0.001 to 1000; default: 0.6)")
           ->type_name("D")
           ->check(number_between(1e-3, 1e3))
           ->excludes(preset);
   CLI::Option* isovalue =
-      command
-          .add_option("--c,--isovalue", options.isovalue, "isovalue c of the surface (1e-9 to 1e9; default: 1.7)")
+      command.add_option("--c,--isovalue", options.isovalue, "isovalue c of the surface (1e-9 to 1e9; default: 1.7)")
           ->type_name("C")
           ->check(number_between(1e-9, 1e9))
           ->excludes(preset);

@@ -84,8 +84,8 @@ CLI::Validator memory_size(std::uint64_t least) {
       [least](std::string& text) {
         const std::optional<std::uint64_t> bytes = bytes_of(text);
         if (!bytes || *bytes < least) {
-          return "expected a size of at least " + std::to_string(least >> 20) + "M such as 500M or 4G, got '" +
-                 text + "'";
+          return "expected a size of at least " + std::to_string(least >> 20) + "M such as 500M or 4G, got '" + text +
+                 "'";
         }
         text = std::to_string(*bytes);
         return std::string();

@@ -7,7 +7,7 @@ namespace gaussmesh {
 
 /// One atom: a sphere that carries a charge.
 struct Atom {
-  double x = 0.0;       ///< centre (A)
+  double x = 0.0;  ///< centre (A)
   double y = 0.0;
   double z = 0.0;
   double radius = 0.0;  ///< A, >= 0; hydrogens of radius 0 are normal and count in the field

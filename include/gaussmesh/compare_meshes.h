@@ -43,9 +43,8 @@ struct CompareOptions {
 /// that to the nearest point of the nearest triangle, which a tree finds: exact but for rounding. Since e(p, S)
 /// changes by no more than p moves, the largest distance is bounded from above too.
 ///
-/// @throws InputError   if a mesh has no triangle, a triangle that names a vertex that is not there, or a
-/// coordinate that
-///                      is not finite or above 1e60
+/// @throws InputError   if a mesh has no triangle, a triangle that names a vertex that is not there, or a coordinate
+///                      that is not finite or above 1e60
 /// @throws OptionError  if the density is not positive, or would make more than 2^20 samples in a triangle
 ///
 /// Cost: some 0.5 us a sample on one core where the surfaces are near each other, less with OpenMP threads. The

@@ -53,8 +53,7 @@ struct NearVertices {
   std::size_t pairs = 0;        ///< nearer to each other than asked for, joined by an edge or not
   std::size_t short_edges = 0;  ///< edges of that length
   std::size_t crowded = 0;      ///< pairs that are also nearer than kCrowded times the mean edge at either vertex
-  std::vector<std::array<std::uint32_t, 2>>
-      examples;  ///< the first few pairs in order of their numbers, lower first
+  std::vector<std::array<std::uint32_t, 2>> examples;  ///< the first few pairs in order of their numbers, lower first
 };
 
 /// Vertices nearer than this share of their edges have slivers between them, or belong to sheets that nearly touch.

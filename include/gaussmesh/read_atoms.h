@@ -31,20 +31,19 @@ inline constexpr double kSuspectRadius = 10.0;
 
 struct ReadOptions {
   std::string format;  ///< one of atom_formats(); empty: the name decides
-  std::string radii;   ///< one of radius_sets(), for PDB and mmCIF; other files have radii of their own
+  std::string radii;   ///< one of radius_set_names(), for PDB and mmCIF; other files have radii of their own
 };
 
 /// pqr, xyzr, pdb, mmcif.
 const std::vector<std::string>& atom_formats();
 
 /// bondi, amber, charmm.
-const std::vector<std::string>& radius_sets();
+const std::vector<std::string>& radius_set_names();
 
 /// Reads a file of atoms, plain or gzipped.
 ///
-/// Names that end in `.xyzr` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and
-/// perhaps with
-/// `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
+/// Names that end in `.xyzr` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
+/// with `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
 /// than 64 MiB and 200-fold are refused.
 ///
 /// @throws OptionError if a format or set of radii is unknown, or no radii are given for PDB or mmCIF
@@ -105,8 +104,8 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
 ///
 /// @throws OptionError  if there is no such set
-/// @throws InputError   if a coordinate is no number or out of range, the set has no radius for an atom, or there
-/// is none
+/// @throws InputError   if a coordinate is no number or out of range, the set has no radius for an atom, or there is
+///                      none
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii);
 
 /// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does.

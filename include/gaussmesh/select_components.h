@@ -25,8 +25,8 @@ ComponentList outsides_first(const MeshCheck& check);
 /// The same findings with the components in another order, one of all of them.
 MeshCheck reorder_components(MeshCheck check, const ComponentList& order);
 
-/// The triangles of `components` with their vertices and what is known of them, in their order; numbers of components in
-/// the data count through `components`.
+/// The triangles of `components` with their vertices and what is known of them, in their order; numbers of components
+/// in the data count through `components`.
 ///
 /// @param check  of `mesh`
 /// Cost: O(n).

@@ -7,8 +7,8 @@
 
 namespace gaussmesh {
 
-using Point = std::array<double, 3>;              ///< x, y, z in A
-using Triangle = std::array<std::uint32_t, 3>;    ///< 0-based vertex numbers, counter-clockwise seen from the solvent
+using Point = std::array<double, 3>;            ///< x, y, z in A
+using Triangle = std::array<std::uint32_t, 3>;  ///< 0-based vertex numbers, counter-clockwise seen from the solvent
 
 /// An indexed triangle mesh. Nothing is promised of it here: verify/ says what holds.
 struct TriangleMesh {

@@ -27,8 +27,7 @@ struct VertexData {
 /// @param atoms  at least one
 ///
 /// Cost: the atoms near each vertex, about 0.5 us a vertex. The answer does not depend on the number of threads.
-std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms,
-                                              int threads);
+std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads);
 
 /// The component of each vertex, from those of its triangles in `check`, which is of this mesh; kNoComponent for a
 /// vertex in no triangle that was judged.

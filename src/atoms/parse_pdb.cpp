@@ -29,8 +29,7 @@ std::string_view element(std::string_view line) {
   if (!written.empty() && is_letter(written[0])) return written;
   const std::string_view guess = columns(line, 13, 14);
   if (guess.size() == 2 && is_digit(guess[0])) return guess.substr(1);
-  return line.size() > 12 && line[12] == 'H' ? line.substr(12, 1)
-                                             : guess;  // names of four letters are of hydrogens
+  return line.size() > 12 && line[12] == 'H' ? line.substr(12, 1) : guess;  // names of four letters are of hydrogens
 }
 
 }  // namespace

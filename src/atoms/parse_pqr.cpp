@@ -63,8 +63,7 @@ AtomFile PqrParser::parse() {
     read_line(*line);
   }
   if (file_.atoms.empty()) {
-    throw InputError(std::string(name_) +
-                     ": expected ATOM or HETATM records, got no atoms; lines of four numbers, " +
+    throw InputError(std::string(name_) + ": expected ATOM or HETATM records, got no atoms; lines of four numbers, " +
                      "x y z radius, are read from files named .xyzr");
   }
   missing_field_check_.require_complete(name_);
@@ -157,10 +156,9 @@ FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {
 }
 
 void PqrParser::fail_at_layout(std::string_view line) const {
-  const char* remedy = has_pdb_columns(line)
-                           ? "; is it a PDB file? pdb2pqr gives it charges and radii, or name it .pdb"
-                       : lines_.is_cut() ? "; the file ends here, is it cut off?"
-                                         : "";
+  const char* remedy = has_pdb_columns(line) ? "; is it a PDB file? pdb2pqr gives it charges and radii, or name it .pdb"
+                       : lines_.is_cut()     ? "; the file ends here, is it cut off?"
+                                             : "";
   fail_at(place(), "serial, atom, residue, [chain,] residue number, x, y, z, charge, radius in an atom record",
           trim(line), remedy);
 }
@@ -194,9 +192,9 @@ void PqrParser::warn_of_end() {
 
 void PqrParser::warn_of_unknown() {
   if (unknown_lines_ > 0) {
-    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " +
-                             std::to_string(unknown_lines_) + (unknown_lines_ == 1 ? " line" : " lines") +
-                             " of no known record, the first " + quoted(first_unknown_));
+    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " + std::to_string(unknown_lines_) +
+                             (unknown_lines_ == 1 ? " line" : " lines") + " of no known record, the first " +
+                             quoted(first_unknown_));
   }
 }
 

@@ -17,8 +17,8 @@ namespace gaussmesh {
 class PdbCheck {
  public:
   void add(const Atom& atom, const AtomFields& fields, std::string_view line, std::size_t number) {
-    is_possible_ = is_possible_ && has_two_decimals(fields[3]) && has_two_decimals(fields[4]) &&
-                   atom.charge >= 0.0 && atom.charge <= 1.0;
+    is_possible_ = is_possible_ && has_two_decimals(fields[3]) && has_two_decimals(fields[4]) && atom.charge >= 0.0 &&
+                   atom.charge <= 1.0;
     if (!is_possible_) {
       return;
     }
@@ -37,10 +37,9 @@ class PdbCheck {
     const bool is_pdb = is_possible_ && atoms >= kFewestToJudge && 2 * ones_ >= atoms &&
                         (largest_radius_ > kSuspectRadius || largest_radius_ == 0.0 || has_elements_);
     if (is_pdb) {
-      fail_at(
-          {name, *first_line_}, "charge and radius behind the coordinates", first_values_,
-          ", which look like occupancy and B-factor, here as in every record: is it a PDB file? pdb2pqr gives it "
-          "charges and radii; if these are meant, set the charges to 0, the surface does not use them");
+      fail_at({name, *first_line_}, "charge and radius behind the coordinates", first_values_,
+              ", which look like occupancy and B-factor, here as in every record: is it a PDB file? pdb2pqr gives it "
+              "charges and radii; if these are meant, set the charges to 0, the surface does not use them");
     }
   }
 

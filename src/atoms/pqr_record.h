@@ -74,8 +74,7 @@ inline RecordKind kind_of_other_record(std::string_view content) {
 inline Record classify_record(std::string_view content) {
   constexpr std::size_t kAtomSize = 4;
   constexpr std::size_t kHetatmSize = 6;
-  const bool may_be_atom =
-      content.size() >= kAtomSize && (to_upper(content[0]) == 'A' || to_upper(content[0]) == 'H');
+  const bool may_be_atom = content.size() >= kAtomSize && (to_upper(content[0]) == 'A' || to_upper(content[0]) == 'H');
   if (may_be_atom && upper_start(content, kAtomSize) == "ATOM") {
     const std::string_view rest = content.substr(kAtomSize);
     if (rest.empty() || is_blank(rest[0]) || is_digit(rest[0]) || rest[0] == '*' || rest[0] == '-') {
@@ -153,8 +152,7 @@ inline std::optional<NumberFields> find_by_fields(std::span<const std::string_vi
 
 /// Finds the numbers of an atom in `line` if x, y, z take eight columns each from `first` on, three decimals each,
 /// and charge and radius stand behind. Uses `splitter`.
-inline std::optional<NumberFields> find_at_column(std::string_view line, std::size_t first,
-                                                  FieldSplitter& splitter) {
+inline std::optional<NumberFields> find_at_column(std::string_view line, std::size_t first, FieldSplitter& splitter) {
   constexpr std::size_t kWidth = 8;
   constexpr std::size_t kPoint = 4;
   const std::size_t end = first + 3 * kWidth;

@@ -5,6 +5,7 @@
 #include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
+#include "gaussmesh/read_atoms.h"
 
 namespace gaussmesh {
 namespace {
@@ -241,10 +242,8 @@ RadiusSet::RadiusSet(const std::string& name) : name_(name) {
   }
 }
 
-std::optional<double> RadiusSet::find(std::string_view residue, std::string_view atom,
-                                      std::string_view element) const {
-  const auto entry =
-      radii_.find(is_by_residue_ ? upper_case(residue) + " " + upper_case(atom) : upper_case(element));
+std::optional<double> RadiusSet::find(std::string_view residue, std::string_view atom, std::string_view element) const {
+  const auto entry = radii_.find(is_by_residue_ ? upper_case(residue) + " " + upper_case(atom) : upper_case(element));
   return entry == radii_.end() ? std::nullopt : std::optional<double>(entry->second);
 }
 

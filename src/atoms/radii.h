@@ -9,9 +9,6 @@
 
 namespace gaussmesh {
 
-/// The names of the sets: bondi, amber, charmm.
-const std::vector<std::string>& radius_set_names();
-
 /// One set. Bondi's goes by the element; those of the force fields by residue and atom, for amino acids and
 /// nucleotides.
 class RadiusSet {

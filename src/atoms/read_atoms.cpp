@@ -33,10 +33,9 @@ AtomFile parse_data(std::string_view data, std::string_view name, const ReadOpti
   if (format == "xyzr") return parse_xyzr(data, name);
   if (format == "pqr") return parse_pqr(data, name);
   if (options.radii.empty()) {
-    throw OptionError(
-        std::string(name) +
-        ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or make a PQR "
-        "file of it with pdb2pqr");
+    throw OptionError(std::string(name) +
+                      ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or make a PQR "
+                      "file of it with pdb2pqr");
   }
   return format == "pdb" ? parse_pdb(data, name, options.radii) : parse_mmcif(data, name, options.radii);
 }
@@ -47,8 +46,6 @@ const std::vector<std::string>& atom_formats() {
   static const std::vector<std::string> formats = {"pqr", "xyzr", "pdb", "mmcif"};
   return formats;
 }
-
-const std::vector<std::string>& radius_sets() { return radius_set_names(); }
 
 AtomFile read_atoms(const std::filesystem::path& path, const ReadOptions& options) {
   return parse_data(read_file(path), path.string(), options);

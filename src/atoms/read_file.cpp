@@ -98,8 +98,7 @@ class GzipReader {
       fail_to_expand(name_, "only their beginning; the file is cut off");
     }
     if (status != Z_OK && status != Z_STREAM_END) {
-      fail_to_expand(name_,
-                     std::string("corrupt ones (") + (stream_.msg != nullptr ? stream_.msg : "damaged") + ")");
+      fail_to_expand(name_, std::string("corrupt ones (") + (stream_.msg != nullptr ? stream_.msg : "damaged") + ")");
     }
     return status;
   }
@@ -134,9 +133,7 @@ std::string read_file(const std::filesystem::path& path) {
   return expand(read_all(input, name, error ? 0 : size), name);  // a pipe has no size
 }
 
-std::string read_stream(std::istream& input, std::string_view name) {
-  return expand(read_all(input, name, 0), name);
-}
+std::string read_stream(std::istream& input, std::string_view name) { return expand(read_all(input, name, 0), name); }
 
 bool has_extension(std::string_view name, std::string_view extension) {
   const auto ends_in = [&name](std::string_view ending) {

@@ -33,8 +33,7 @@ bool StructureBuilder::is_taken(const AtomSite& site) {
     ++waters_;
     return false;
   }
-  if (!site.alternate.empty() &&
-      alternates_.try_emplace(site.site, site.alternate).first->second != site.alternate) {
+  if (!site.alternate.empty() && alternates_.try_emplace(site.site, site.alternate).first->second != site.alternate) {
     ++other_locations_;
     return false;
   }

@@ -1,6 +1,6 @@
 // What the text formats of atoms share: lines, fields, numbers, the atom they make, and errors that name the line.
 //
-// The formats are parse_pqr.cpp and parse_xyzr.cpp; files and gzip are read_atoms.cpp.
+// The formats are parse_pqr.cpp and parse_xyzr.cpp; files and gzip are read_file.cpp.
 #pragma once
 
 #include <array>

@@ -30,8 +30,10 @@ void BrickWalker::walk(const BrickIndex& brick, const Visitor& visit) {
                                    (octant >> 2) * kOctantCells};
     octant_loaded_ = false;
     for (int block = 0; block < 8; ++block) {
-      walk_block(origin, first, {first[0] + (block & 1) * kBlockCells, first[1] + (block >> 1 & 1) * kBlockCells,
-                                 first[2] + (block >> 2) * kBlockCells}, visit);
+      walk_block(origin, first,
+                 {first[0] + (block & 1) * kBlockCells, first[1] + (block >> 1 & 1) * kBlockCells,
+                  first[2] + (block >> 2) * kBlockCells},
+                 visit);
     }
   }
 }

@@ -73,11 +73,11 @@ class BrickTables {
   void add_block(const NearAtoms& atoms, double decay, const Planes& planes, std::size_t first, std::size_t count);
 
   std::array<std::uint8_t, kBrickCells * kBrickCells * kBrickCells> cells_{};
-  std::array<double, kRows * kPlanes> log_sums_{};  ///< S / c, then psi, at all crossings of planes
+  std::array<double, kRows * kPlanes> log_sums_{};   ///< S / c, then psi, at all crossings of planes
   double inside_above_ = 0.0, outside_below_ = 0.0;  ///< what psi proves at a corner, errors and all
-  std::array<double, 3> origin_{};  ///< the brick's lowest corner (A)
-  double edge_ = 0.0;         ///< of the cells (A)
-  double square_ = 0.0;       ///< d a^2, rounded up
+  std::array<double, 3> origin_{};                   ///< the brick's lowest corner (A)
+  double edge_ = 0.0;                                ///< of the cells (A)
+  double square_ = 0.0;                              ///< d a^2, rounded up
   double free_above_ = 0.0;   ///< what bounds of psi between corners prove an inside, as inside_above_
   double grows_below_ = 0.0;  ///< what psi + d L^2 must be below for directions ...
   double edge_slope_ = 0.0;   ///< ... and what the slopes of atoms left out may take from that over an edge

@@ -154,8 +154,7 @@ CellProver::Part CellProver::part_of(unsigned directions, bool is_surely_crossed
   return part;
 }
 
-bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction,
-                             int depth) {
+bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction, int depth) {
   const Eighths eighths = eighths_of(model.box());
   const unsigned proven = model.prove_along(eighths, direction);
   for (int child = 0; child < 8; ++child) {

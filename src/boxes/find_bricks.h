@@ -26,10 +26,4 @@ inline FineIndex brick_origin(const BrickIndex& brick) {
 /// memory grow with the surface and the atoms.
 std::vector<BrickIndex> find_bricks(const GaussianField& field, const Lattice& lattice, int threads = 1);
 
-/// How far the search went: boxes looked at by size, for the report.
-struct BoxLevel {
-  double size = 0.0;        ///< edge (A)
-  std::size_t boxes = 0;
-};
-
 }  // namespace gaussmesh

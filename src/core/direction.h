@@ -1,8 +1,6 @@
 // Directions along which surface is a graph: along an axis, or slanted from one.
 #pragma once
 
-#include <cstdlib>
-
 #include "core/exact_plane.h"
 
 namespace gaussmesh {

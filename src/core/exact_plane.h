@@ -1,6 +1,9 @@
 // Exact signs for points of one plane in whole-number coordinates.
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "core/lattice.h"
 
 namespace gaussmesh {
@@ -37,6 +40,28 @@ inline bool segments_meet(const PlanePoint& p, const PlanePoint& q, const PlaneP
 /// Whether two segments from a common end p overlap beyond it: same direction. Exact.
 inline bool segments_overlap(const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
   return turn(p, q, r) == 0 && (within(p, q, r) || within(p, r, q));
+}
+
+/// A side of a polygon whose corners have numbers.
+struct PolygonSide {
+  PlanePoint p, q;
+  int from, to;
+};
+
+/// Whether a side is a point, or two of them have more in common than a corner in which one follows the other. Exact.
+/// Cost: O(n^2).
+inline bool sides_meet(std::span<const PolygonSide> sides) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i].p == sides[i].q) return true;
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      const PolygonSide &s = sides[i], &t = sides[j];
+      const bool meet = s.to == t.from   ? segments_overlap(s.q, s.p, t.q)
+                        : t.to == s.from ? segments_overlap(t.q, t.p, s.q)
+                                         : segments_meet(s.p, s.q, t.p, t.q);
+      if (meet) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace gaussmesh

@@ -7,7 +7,8 @@
 
 namespace gaussmesh {
 
-/// Sign of det(q - p, r - p, s - p): +1 if p, q, r turn counter-clockwise seen from s. Exact while coordinates differ by less than 2^40 units (1100 A).
+/// Sign of det(q - p, r - p, s - p): +1 if p, q, r turn counter-clockwise seen from s. Exact while coordinates differ
+/// by less than 2^40 units (1100 A).
 inline int orientation(const CoordPoint& p, const CoordPoint& q, const CoordPoint& r, const CoordPoint& s) {
   __extension__ using Wide = __int128;
   const Wide ax = q[0] - p[0], ay = q[1] - p[1], az = q[2] - p[2];
@@ -57,8 +58,10 @@ inline bool triangles_may_meet(const NamedTriangle& s, const NamedTriangle& t) {
   }
   for (int i = 0; i < 3; ++i) {
     const int next = (i + 1) % 3;
-    if (!s_shared[i] && !s_shared[next] && segment_may_meet(s.at[i], s.at[next], t.at[0], t.at[1], t.at[2])) return true;
-    if (!t_shared[i] && !t_shared[next] && segment_may_meet(t.at[i], t.at[next], s.at[0], s.at[1], s.at[2])) return true;
+    if (!s_shared[i] && !s_shared[next] && segment_may_meet(s.at[i], s.at[next], t.at[0], t.at[1], t.at[2]))
+      return true;
+    if (!t_shared[i] && !t_shared[next] && segment_may_meet(t.at[i], t.at[next], s.at[0], s.at[1], s.at[2]))
+      return true;
   }
   if (shared == 0) return false;
   // A shared corner: the edges at it lie in the other triangle only when coplanar.

@@ -11,7 +11,7 @@
 
 namespace gaussmesh {
 
-using Coord = std::int64_t;                  ///< a coordinate in units of 1e-9 A
+using Coord = std::int64_t;  ///< a coordinate in units of 1e-9 A
 using CoordPoint = std::array<Coord, 3>;
 using Vec3 = std::array<double, 3>;
 
@@ -84,8 +84,9 @@ inline FineIndex cell_hi(const CellKey& cell) {
   return {cell.lo[0] + size, cell.lo[1] + size, cell.lo[2] + size};
 }
 
-/// A hash for what begins at corners of the lattice of some level, such as its cells: those in one cell of the level above
-/// are at neighbouring slots of a table, as they are asked for one after the other, and tables may be larger than caches.
+/// A hash for what begins at corners of the lattice of some level, such as its cells: those in one cell of the level
+/// above are at neighbouring slots of a table, as they are asked for one after the other, and tables may be larger than
+/// caches.
 /// @tparam kinds  how many things begin at one corner
 template <unsigned kinds>
 std::size_t lattice_hash(const FineIndex& lo, int level, unsigned kind) {

@@ -27,9 +27,10 @@ class DefaultThreads {
   int before_;
 };
 
-/// Calls worker(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot only.
-/// Each thread has a worker of its own from make_worker(), which keeps buffers from slot to slot, and takes `chunk` slots
-/// at a time. When calls throw, the exception of the smallest i is thrown again, whatever the number of threads.
+/// Calls worker(i) for i = 0 .. count - 1, in any order and on `threads` threads; each call writes to its own slot
+/// only. Each thread has a worker of its own from make_worker(), which keeps buffers from slot to slot, and takes
+/// `chunk` slots at a time. When calls throw, the exception of the smallest i is thrown again, whatever the number of
+/// threads.
 template <typename MakeWorker>
 void parallel_for_workers(std::size_t count, int threads, int chunk, const MakeWorker& make_worker) {
   std::exception_ptr error;
@@ -70,8 +71,8 @@ void parallel_for_chunks(std::size_t count, std::size_t size, int threads, const
   });
 }
 
-/// Resizes an array on all threads: the system gives memory when it is first written to, page by page, which takes longer
-/// than to fill it with zeros.
+/// Resizes an array on all threads: the system gives memory when it is first written to, page by page, which takes
+/// longer than to fill it with zeros.
 template <typename T>
 void resize_in_parallel(std::vector<T>& array, std::size_t count, int threads) {
   constexpr std::size_t kPage = 4096, kBytesAtOnce = 64 * kPage;

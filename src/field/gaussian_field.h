@@ -32,12 +32,12 @@ class GaussianField {
 
  private:
   struct Node {
-    Box box;                   ///< of the centres
+    Box box;  ///< of the centres
     double w_max = 0.0;
-    double w_size = 0.0;       ///< largest |w|
-    std::uint32_t first = 0;   ///< atoms first .. last - 1
+    double w_size = 0.0;      ///< largest |w|
+    std::uint32_t first = 0;  ///< atoms first .. last - 1
     std::uint32_t last = 0;
-    std::uint32_t right = 0;   ///< the left child follows its parent; 0 in a leaf
+    std::uint32_t right = 0;  ///< the left child follows its parent; 0 in a leaf
   };
   struct WeightedCentre {
     Vec3 centre;

@@ -82,8 +82,8 @@ CentralMoments central_moments(const double* x, const double* y, const double* z
     ry += beyond_second * sy;
     rz += beyond_second * sz;
   }
-  return {{xx, yy, zz, xy, xz, yz}, {xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz}, growth, remainder,
-          {rx, ry, rz}};
+  return {
+      {xx, yy, zz, xy, xz, yz}, {xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz}, growth, remainder, {rx, ry, rz}};
 }
 
 }  // namespace
@@ -120,8 +120,7 @@ LocalModel::LocalModel(const NearAtoms& atoms, double decay, const Box& box) : b
   const double inverse = 1.0 / first.total;
   m.psi = shift + std::log(first.total);
   m.mean_offset = {first.ux * inverse, first.uy * inverse, first.uz * inverse};
-  const Vec3 centre = {m.middle[0] - m.mean_offset[0], m.middle[1] - m.mean_offset[1],
-                       m.middle[2] - m.mean_offset[2]};
+  const Vec3 centre = {m.middle[0] - m.mean_offset[0], m.middle[1] - m.mean_offset[1], m.middle[2] - m.mean_offset[2]};
   const CentralMoments moments = central_moments(atoms.x.data(), atoms.y.data(), atoms.z.data(), weight.data(), padded,
                                                  decay, centre.data(), m.half.data());
   for (int i = 0; i < 6; ++i) m.second[i] = moments.second[i] * inverse;

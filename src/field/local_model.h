@@ -30,19 +30,19 @@ struct Range {
 /// radius of 1000 A makes no larger numbers than one of 1 A. Rounding and truncation are in the ranges.
 struct LocalModelTerms {
   double decay = 0.0;
-  Vec3 middle{};             ///< m
-  Vec3 half{};               ///< half widths of the box (A)
-  bool empty = true;         ///< no atom counts: only the tail is there
-  bool usable = false;       ///< false: the moments say nothing, the box is too large for the atoms
-  double psi = 0.0;          ///< log(phi / c) at the middle
-  Vec3 mean_offset{};        ///< v (A)
-  double second[6]{};        ///< E[y y]: xx yy zz xy xz yz (1/A^2)
-  double third[10]{};        ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
-  double remainder = 0.0;    ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
-  Vec3 remainder_slope{};    ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
-  double growth = 1.0;       ///< E[exp(z)] >= g anywhere in the box
+  Vec3 middle{};           ///< m
+  Vec3 half{};             ///< half widths of the box (A)
+  bool empty = true;       ///< no atom counts: only the tail is there
+  bool usable = false;     ///< false: the moments say nothing, the box is too large for the atoms
+  double psi = 0.0;        ///< log(phi / c) at the middle
+  Vec3 mean_offset{};      ///< v (A)
+  double second[6]{};      ///< E[y y]: xx yy zz xy xz yz (1/A^2)
+  double third[10]{};      ///< E[y y y]: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz (1/A^3)
+  double remainder = 0.0;  ///< E[exp(z) - 1 - z - z^2/2 - z^3/6]
+  Vec3 remainder_slope{};  ///< E[|y_k| (exp(z) - 1 - z - z^2/2)] (1/A)
+  double growth = 1.0;     ///< E[exp(z)] >= g anywhere in the box
   double log_growth = 0.0;
-  double slope_size = 0.0;   ///< no |y| is larger (1/A)
+  double slope_size = 0.0;  ///< no |y| is larger (1/A)
   double relative_error = 0.0;
   double tail = 0.0;
   double tail_slope = 0.0;
@@ -94,11 +94,11 @@ class LocalModel {
 /// The series of g at the middle of a part of the box, and what it leaves out: of one part, or of one in each lane.
 template <typename Real>
 struct LocalSeries {
-  Real t[3]{};        ///< middle of the part relative to the model's (A)
-  Real s[3]{};        ///< its half widths (A)
-  Real g{};           ///< g and its derivatives at t
+  Real t[3]{};  ///< middle of the part relative to the model's (A)
+  Real s[3]{};  ///< its half widths (A)
+  Real g{};     ///< g and its derivatives at t
   Real g1[3]{};
-  Real g2[6]{};       ///< xx yy zz xy xz yz
+  Real g2[6]{};                 ///< xx yy zz xy xz yz
   Real sum1{}, sum2{}, sum3{};  ///< sums |derivative| s^order over all index tuples
   Real remainder{};
   Real remainder_slope[3]{};

@@ -16,9 +16,8 @@ namespace gaussmesh {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Index of the third moment jkl in the order of LocalModelTerms::third.
-inline constexpr int kThird[3][3][3] = {{{0, 3, 4}, {3, 5, 9}, {4, 9, 7}},
-                                 {{3, 5, 9}, {5, 1, 6}, {9, 6, 8}},
-                                 {{4, 9, 7}, {9, 6, 8}, {7, 8, 2}}};
+inline constexpr int kThird[3][3][3] = {
+    {{0, 3, 4}, {3, 5, 9}, {4, 9, 7}}, {{3, 5, 9}, {5, 1, 6}, {9, 6, 8}}, {{4, 9, 7}, {9, 6, 8}, {7, 8, 2}}};
 inline constexpr int kSecond[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 
 /// Indices of the third moments that a second one and x, y or z make.

@@ -111,9 +111,7 @@ LocalModel::View::View(const LocalModel& model, const Box& part) : terms_(model.
   measure_series(terms_, lambda, series_);
 }
 
-double LocalModel::View::middle_value() const {
-  return middle_of(terms_, series_, series_.g > 0.0 ? series_.g : 1.0);
-}
+double LocalModel::View::middle_value() const { return middle_of(terms_, series_, series_.g > 0.0 ? series_.g : 1.0); }
 
 Vec3 LocalModel::View::middle_gradient() const {
   Vec3 gradient;
@@ -179,8 +177,6 @@ bool LocalModel::View::proves(const Direction& direction) const {
   return direction.sign > 0 ? change.lo > 0.0 : change.hi < 0.0;
 }
 
-bool LocalModel::View::is_surely_crossed() const {
-  return crosses_inner_half(terms_, series_);
-}
+bool LocalModel::View::is_surely_crossed() const { return crosses_inner_half(terms_, series_); }
 
 }  // namespace gaussmesh

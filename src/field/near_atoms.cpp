@@ -101,8 +101,8 @@ Extremes gather(const double* from, const std::uint32_t* index, std::size_t n, d
 
 }  // namespace
 
-void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box,
-                       double decay, double* exponent) {
+void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box, double decay,
+                       double* exponent) {
   exponents_in(atoms.x.data() + first, atoms.y.data() + first, atoms.z.data() + first, atoms.w.data() + first, count,
                decay, box.lo.data(), box.hi.data(), exponent);
 }

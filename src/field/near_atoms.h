@@ -19,8 +19,8 @@ struct WeightedCentres {
 };
 
 /// exponent[i] = w - d dist(atom, box)^2 for `count` atoms from `first` on: none has a larger one in the box.
-void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box,
-                       double decay, double* exponent);
+void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::size_t count, const Box& box, double decay,
+                       double* exponent);
 
 /// Atoms near a box, in an order that depends on the atoms alone.
 ///
@@ -31,12 +31,12 @@ void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::siz
 /// Arrays are filled up to whole SIMD vectors: entries from size() to padded() - 1 have a weight of zero.
 class NearAtoms : public WeightedCentres {
  public:
-  Vec3 lo{kEmptyLo, kEmptyLo, kEmptyLo};   ///< box round the centres, turned inside out while there are none
+  Vec3 lo{kEmptyLo, kEmptyLo, kEmptyLo};  ///< box round the centres, turned inside out while there are none
   Vec3 hi{-kEmptyLo, -kEmptyLo, -kEmptyLo};
-  double w_size = 0.0;          ///< largest |w|
-  double cut = 0.0;             ///< atoms with a log-weight below -cut everywhere in the box were left out
+  double w_size = 0.0;  ///< largest |w|
+  double cut = 0.0;     ///< atoms with a log-weight below -cut everywhere in the box were left out
   double tail = 0.0;
-  double tail_slope = 0.0;      ///< 1/A
+  double tail_slope = 0.0;  ///< 1/A
 
   std::size_t size() const { return size_; }
   std::size_t padded() const { return (size_ + kLanes - 1) / kLanes * kLanes; }
@@ -78,8 +78,8 @@ inline constexpr double kFineTruncation = 40.0;
 
 /// Bounds of phi / c over a box from the atoms' distances alone: good for boxes larger than an atom.
 struct CrudeBounds {
-  double upper = 0.0;      ///< phi / c is at most this
-  bool inside = false;     ///< one atom alone has phi_i > c everywhere in the box
+  double upper = 0.0;   ///< phi / c is at most this
+  bool inside = false;  ///< one atom alone has phi_i > c everywhere in the box
 };
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay);
 

@@ -27,7 +27,7 @@ struct WeightSumsAlong {
 
 GAUSSMESH_SIMD_CLONES
 double largest_of(const double* x, const double* y, const double* z, const double* w, std::size_t n, double d,
-                        double px, double py, double pz) {
+                  double px, double py, double pz) {
   double largest = -1e300;
 #pragma omp simd reduction(max : largest)
   for (std::size_t i = 0; i < n; ++i) {
@@ -146,8 +146,8 @@ LineValue evaluate_along(const NearAtoms& atoms, double decay, const Vec3& p, in
   for (int k = 0; k < 3; ++k) {
     const double product = f * s.once[k];
     line.gradient_slope[k] = d * d * (product - along_mean * mean[k]);
-    line.gradient_curvature[k] = d * d * d * (f * s.twice[k] - 2.0 * along_mean * (product - along_mean * mean[k]) -
-                                              along_sq * mean[k]);
+    line.gradient_curvature[k] =
+        d * d * d * (f * s.twice[k] - 2.0 * along_mean * (product - along_mean * mean[k]) - along_sq * mean[k]);
   }
   line.gradient_slope[axis] -= 2.0 * decay;
   return line;

@@ -9,9 +9,9 @@ namespace gaussmesh {
 
 /// log(phi / c) and its gradient at a point. The surface is where `value` is zero; it is positive inside.
 struct PointValue {
-  double value = 0.0;   ///< of the atoms in the list; those left out can only add to it
-  double error = 0.0;   ///< proven bound of its rounding error
-  Vec3 gradient{};      ///< 1/A, of the atoms in the list
+  double value = 0.0;  ///< of the atoms in the list; those left out can only add to it
+  double error = 0.0;  ///< proven bound of its rounding error
+  Vec3 gradient{};     ///< 1/A, of the atoms in the list
 };
 
 /// On which side of the surface a point lies, atoms left out and rounding considered.

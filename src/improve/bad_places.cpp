@@ -23,18 +23,19 @@ struct SideOf {
 /// @param is_turned  by vertex, whether some triangle is turned far from the normal there
 void add_sharp_edges(const WholeMesh& mesh, const std::vector<std::uint8_t>& is_turned, int threads,
                      std::vector<std::uint32_t>& bad) {
-  std::vector<SideOf> sides = parallel_gather<SideOf>(
-      mesh.triangles.size(), kTrianglesAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<SideOf>& list) {
-        for (std::size_t number = first; number < last; ++number) {
-          const Triangle& t = mesh.triangles[number];
-          if (is_turned[t[0]] + is_turned[t[1]] + is_turned[t[2]] < 2) continue;
-          for (int i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-            if (is_turned[low] && is_turned[high]) list.push_back({low, high, static_cast<std::uint32_t>(number)});
-          }
-        }
-      });
+  std::vector<SideOf> sides =
+      parallel_gather<SideOf>(mesh.triangles.size(), kTrianglesAtOnce, threads,
+                              [&](std::size_t first, std::size_t last, std::vector<SideOf>& list) {
+                                for (std::size_t number = first; number < last; ++number) {
+                                  const Triangle& t = mesh.triangles[number];
+                                  if (is_turned[t[0]] + is_turned[t[1]] + is_turned[t[2]] < 2) continue;
+                                  for (int i = 0; i < 3; ++i) {
+                                    const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+                                    if (is_turned[low] && is_turned[high])
+                                      list.push_back({low, high, static_cast<std::uint32_t>(number)});
+                                  }
+                                }
+                              });
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high) continue;
@@ -53,21 +54,21 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
     std::uint32_t vertex;
     bool is_turned;  ///< a triangle from the normal here; otherwise it has too small an angle
   };
-  const auto found = parallel_gather<Found>(
-      mesh.triangles.size(), kTrianglesAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<Found>& list) {
-        for (std::size_t number = first; number < last; ++number) {
-          const Triangle& t = mesh.triangles[number];
-          if (is_at_least(mesh, t, good)) continue;
-          const bool is_thin = triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine;
-          const Vec3 normal = area_normal(mesh, t);
-          const double least = kHalfASharpTurn * length(normal);
-          for (const std::uint32_t v : t) {
-            if (is_thin) list.push_back({v, false});
-            if (dot(normal, mesh.normal[v]) < least) list.push_back({v, true});
-          }
-        }
-      });
+  const auto found = parallel_gather<Found>(mesh.triangles.size(), kTrianglesAtOnce, threads,
+                                            [&](std::size_t first, std::size_t last, std::vector<Found>& list) {
+                                              for (std::size_t number = first; number < last; ++number) {
+                                                const Triangle& t = mesh.triangles[number];
+                                                if (is_at_least(mesh, t, good)) continue;
+                                                const bool is_thin =
+                                                    triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine;
+                                                const Vec3 normal = area_normal(mesh, t);
+                                                const double least = kHalfASharpTurn * length(normal);
+                                                for (const std::uint32_t v : t) {
+                                                  if (is_thin) list.push_back({v, false});
+                                                  if (dot(normal, mesh.normal[v]) < least) list.push_back({v, true});
+                                                }
+                                              }
+                                            });
   std::vector<std::uint32_t> bad;
   std::vector<std::uint8_t> is_turned(mesh.at.size(), 0);
   for (const Found& f : found) {
@@ -83,17 +84,17 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
 }
 
 std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads) {
-  constexpr double kPromisedSine = 0.5;
-  std::vector<std::uint32_t> thin = parallel_gather<std::uint32_t>(
-      mesh.triangles.size(), kTrianglesAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
-        for (std::size_t number = first; number < last; ++number) {
-          const Triangle& t = mesh.triangles[number];
-          if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kPromisedSine) {
-            list.insert(list.end(), t.begin(), t.end());
-          }
-        }
-      });
+  constexpr double kWantedSine = 0.5;  // 30 degrees
+  std::vector<std::uint32_t> thin =
+      parallel_gather<std::uint32_t>(mesh.triangles.size(), kTrianglesAtOnce, threads,
+                                     [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+                                       for (std::size_t number = first; number < last; ++number) {
+                                         const Triangle& t = mesh.triangles[number];
+                                         if (triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kWantedSine) {
+                                           list.insert(list.end(), t.begin(), t.end());
+                                         }
+                                       }
+                                     });
   sort_and_unite(thin);
   return thin;
 }

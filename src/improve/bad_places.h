@@ -8,7 +8,7 @@
 
 namespace gaussmesh {
 
-/// The smallest angle that triangles are to have (degrees); a little above what is promised.
+/// The smallest angle that triangles are to have (degrees); a little above the 30 that are wanted.
 inline constexpr double kLeastAngle = 31.0;
 inline const double kLeastSine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
 

@@ -202,12 +202,14 @@ FieldJet BlockField::jet(const Vec3& point) {
     const Vec3 p = point - near.origin;
     const FieldJet jet = jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.x.size(),
                                             static_cast<float>(decay_), static_cast<float>(p[0]),
-                                            static_cast<float>(p[1]), static_cast<float>(p[2])), decay_);
+                                            static_cast<float>(p[1]), static_cast<float>(p[2])),
+                                decay_);
     if (dot(jet.gradient, jet.gradient) > kLeastRoughSlope * kLeastRoughSlope) return jet;
   }
   const NearAtoms& near = atoms_at(point);
-  return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(), decay_,
-                            point[0], point[1], point[2]), decay_);
+  return jet_of(second_sums(near.x.data(), near.y.data(), near.z.data(), near.w.data(), near.padded(), decay_, point[0],
+                            point[1], point[2]),
+                decay_);
 }
 
 std::optional<Place> BlockField::project(const Vec3& point, double farthest, Accuracy accuracy) {
@@ -225,8 +227,8 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
       is_rough = false;
       continue;
     }
-    const double good_step = is_rough ? std::min(kRoughStep, kRoughPart * farthest)
-                                      : std::min(kGoodStep, kGoodPart * farthest);
+    const double good_step =
+        is_rough ? std::min(kRoughStep, kRoughPart * farthest) : std::min(kGoodStep, kGoodPart * farthest);
     if (!(slope > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.5 * farthest, 0.5 * farthest);
     p = p + step / slope * v.gradient;

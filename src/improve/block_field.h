@@ -56,8 +56,6 @@ class BlockField {
   /// lead to the surface on one way.
   std::optional<Place> project_along(const Vec3& direction, const Vec3& point, double farthest);
 
-  const Box& box() const { return box_; }
-
  private:
   static constexpr int kMostCells = 16;  ///< along an axis
   static constexpr int kGroupCells = 4;  ///< along an axis: their lists come from one list for all of them

@@ -125,8 +125,8 @@ inline TriangleQuality worse(const TriangleQuality& a, const TriangleQuality& b)
   return {std::min(a.min_sine, b.min_sine), std::min(a.normal_cosine, b.normal_cosine)};
 }
 
-inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3& r, const Normal& np,
-                                        const Normal& nq, const Normal& nr) {
+inline TriangleQuality triangle_quality(const Vec3& p, const Vec3& q, const Vec3& r, const Normal& np, const Normal& nq,
+                                        const Normal& nr) {
   const Vec3 u = q - p, v = r - p, w = r - q;
   const Vec3 n = cross(u, v);
   const double nn = dot(n, n), uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);

@@ -128,9 +128,9 @@ bool try_split(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, const Place&
   const TriangleQuality before = worse(triangle_quality(mesh, s), triangle_quality(mesh, t));
   TriangleQuality after = kPerfect;
   for (const Triangle& p : parts) after = worse(after, triangle_quality(mesh, p[0], p[1], p[2]));
-  bool allowed = turn_is_allowed(before, after) || (after.min_sine >= std::min(kLeastSineOnRims, before.min_sine) &&
-                                                    after.normal_cosine >= kTurnLimitOnRims &&
-                                                    !meets_stars(mesh, s, t, parts));
+  bool allowed =
+      turn_is_allowed(before, after) || (after.min_sine >= std::min(kLeastSineOnRims, before.min_sine) &&
+                                         after.normal_cosine >= kTurnLimitOnRims && !meets_stars(mesh, s, t, parts));
   const bool guarded = mesh.is_guarded[m];
   if (allowed && guarded) {
     const auto ignored = [&](Index other) { return other == s || other == t; };
@@ -180,8 +180,7 @@ bool try_move(BlockMesh& mesh, SheetGuard& guard, std::uint32_t v, const Place& 
   return true;
 }
 
-std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor,
-                             Accuracy accuracy) {
+std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor, Accuracy accuracy) {
   const HalfEdgeMesh& c = mesh.connectivity;
   const Index count = c.half_edges();  // new edges have their turn in the next round
   std::size_t made = 0;
@@ -212,8 +211,7 @@ std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double fact
     if (!names_edge(mesh, h)) continue;
     const double size = wanted_size(mesh, h);
     if (edge_length_sq(mesh, h) >= factor * size * factor * size) continue;
-    if (try_collapse(mesh, guard, h, kLongest * size) || try_collapse(mesh, guard, c.twin(h), kLongest * size))
-      ++made;
+    if (try_collapse(mesh, guard, h, kLongest * size) || try_collapse(mesh, guard, c.twin(h), kLongest * size)) ++made;
   }
   return made;
 }

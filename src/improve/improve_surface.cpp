@@ -63,16 +63,16 @@ WholeMesh start_with(SurfaceMesh traced, double spacing) {
 
 double mean_edge(const WholeMesh& mesh, int threads) {
   constexpr std::size_t kTrianglesAtOnce = 65536;
-  const auto sums = parallel_gather<double>(
-      mesh.triangles.size(), kTrianglesAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<double>& list) {
-        double sum = 0.0;
-        for (std::size_t number = first; number < last; ++number) {
-          const Triangle& t = mesh.triangles[number];
-          for (int i = 0; i < 3; ++i) sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
-        }
-        list.push_back(sum);
-      });
+  const auto sums = parallel_gather<double>(mesh.triangles.size(), kTrianglesAtOnce, threads,
+                                            [&](std::size_t first, std::size_t last, std::vector<double>& list) {
+                                              double sum = 0.0;
+                                              for (std::size_t number = first; number < last; ++number) {
+                                                const Triangle& t = mesh.triangles[number];
+                                                for (int i = 0; i < 3; ++i)
+                                                  sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
+                                              }
+                                              list.push_back(sum);
+                                            });
   return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
@@ -130,7 +130,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
                    const Sweep& sweep) {
   BlockField field(whole_field, mesh.box);
   find_wanted_sizes(mesh, field, targets);
-  SheetGuard guard(mesh, guarding == Guarding::kEverywhere);
+  SheetGuard guard(mesh, guarding);
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
@@ -151,7 +151,7 @@ std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, 
     refine(mesh, sharp);
     activate_round(mesh, std::move(bad));
     find_wanted_sizes(mesh, field, targets);
-    SheetGuard guard(mesh, guarding == Guarding::kEverywhere);
+    SheetGuard guard(mesh, guarding);
     cut_to_size(mesh, guard, field, Accuracy::kExact);
     run_round(mesh, guard, field, Accuracy::kExact);
     repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);

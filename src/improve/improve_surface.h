@@ -6,6 +6,7 @@
 
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
+#include "improve/sheet_guard.h"
 #include "improve/size_field.h"
 
 namespace gaussmesh {
@@ -20,12 +21,6 @@ struct SurfaceMesh {
 struct ImprovedSurface {
   SurfaceMesh surface;
   std::vector<Vec3> thin;  ///< corners of the triangles that it left with an angle below 30 degrees
-};
-
-/// How triangles are kept from meeting.
-enum class Guarding {
-  kCloseSheets,  ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
-  kEverywhere,   ///< exact tests of every change
 };
 
 /// Makes the triangles of `traced` nearly equilateral with edges of about the spacing, smaller where the surface

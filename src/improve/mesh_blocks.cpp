@@ -56,16 +56,16 @@ Box box_of(const WholeMesh& mesh, const Triangle& v) {
 
 /// The largest extent of any triangle along any axis.
 double longest_extent(const WholeMesh& mesh, int threads) {
-  const auto longest = parallel_gather<double>(
-      mesh.triangles.size(), kMembersAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<double>& list) {
-        double most = 0.0;
-        for (std::size_t t = first; t < last; ++t) {
-          const Box box = box_of(mesh, mesh.triangles[t]);
-          for (int k = 0; k < 3; ++k) most = std::max(most, box.hi[k] - box.lo[k]);
-        }
-        list.push_back(most);
-      });
+  const auto longest = parallel_gather<double>(mesh.triangles.size(), kMembersAtOnce, threads,
+                                               [&](std::size_t first, std::size_t last, std::vector<double>& list) {
+                                                 double most = 0.0;
+                                                 for (std::size_t t = first; t < last; ++t) {
+                                                   const Box box = box_of(mesh, mesh.triangles[t]);
+                                                   for (int k = 0; k < 3; ++k)
+                                                     most = std::max(most, box.hi[k] - box.lo[k]);
+                                                 }
+                                                 list.push_back(most);
+                                               });
   return longest.empty() ? 0.0 : *std::max_element(longest.begin(), longest.end());
 }
 
@@ -78,13 +78,14 @@ MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift, int thre
     BoxGrid::Cube cube;
     std::uint32_t first;  ///< of vertices that follow each other in a cube
   };
-  const auto runs = parallel_gather<Run>(
-      mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t first, std::size_t last, std::vector<Run>& list) {
-        for (std::size_t v = first; v < last; ++v) {
-          const BoxGrid::Cube cube = grid.cube_of(mesh_.at[v]);
-          if (list.empty() || list.back().cube != cube) list.push_back({cube, static_cast<std::uint32_t>(v)});
-        }
-      });
+  const auto runs = parallel_gather<Run>(mesh_.at.size(), kMembersAtOnce, threads,
+                                         [&](std::size_t first, std::size_t last, std::vector<Run>& list) {
+                                           for (std::size_t v = first; v < last; ++v) {
+                                             const BoxGrid::Cube cube = grid.cube_of(mesh_.at[v]);
+                                             if (list.empty() || list.back().cube != cube)
+                                               list.push_back({cube, static_cast<std::uint32_t>(v)});
+                                           }
+                                         });
   for (std::size_t r = 0; r < runs.size(); ++r) {
     std::vector<std::uint32_t>& blocks = grid.numbers_in(runs[r].cube);
     if (blocks.empty()) {
@@ -117,13 +118,13 @@ MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int
     }
   });
   list_members(threads);
-  const auto others = parallel_gather<std::uint32_t>(
-      between_.size(), kMembersAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
-        for (std::size_t i = first; i < last; ++i) {
-          if (is_near[mesh_.triangles[between_[i]][0]]) list.push_back(between_[i]);
-        }
-      });
+  const auto others =
+      parallel_gather<std::uint32_t>(between_.size(), kMembersAtOnce, threads,
+                                     [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+                                       for (std::size_t i = first; i < last; ++i) {
+                                         if (is_near[mesh_.triangles[between_[i]][0]]) list.push_back(between_[i]);
+                                       }
+                                     });
   list_reaching(near, others, threads);
 }
 
@@ -134,23 +135,26 @@ bool MeshBlocks::is_in_block(const Triangle& t) const {
 }
 
 void MeshBlocks::list_members(int threads) {
-  list_by_block(block_of_.size(), boxes_.size(), threads, [&](std::size_t v) { return block_of_[v]; }, first_vertex_,
-                vertices_);
+  list_by_block(
+      block_of_.size(), boxes_.size(), threads, [&](std::size_t v) { return block_of_[v]; }, first_vertex_, vertices_);
   local_.resize(block_of_.size());
   parallel_for(boxes_.size(), threads, [&](std::size_t b) {
     for (std::uint32_t i = first_vertex_[b]; i < first_vertex_[b + 1]; ++i) local_[vertices_[i]] = i - first_vertex_[b];
   });
-  list_by_block(mesh_.triangles.size(), boxes_.size(), threads, [&](std::size_t t) {
-    const Triangle& triangle = mesh_.triangles[t];
-    return is_in_block(triangle) ? block_of_[triangle[0]] : kNowhere;
-  }, first_triangle_, triangles_);
-  between_ = parallel_gather<std::uint32_t>(
-      mesh_.triangles.size(), kMembersAtOnce, threads,
-      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
-        for (std::size_t t = first; t < last; ++t) {
-          if (!is_in_block(mesh_.triangles[t])) list.push_back(static_cast<std::uint32_t>(t));
-        }
-      });
+  list_by_block(
+      mesh_.triangles.size(), boxes_.size(), threads,
+      [&](std::size_t t) {
+        const Triangle& triangle = mesh_.triangles[t];
+        return is_in_block(triangle) ? block_of_[triangle[0]] : kNowhere;
+      },
+      first_triangle_, triangles_);
+  between_ = parallel_gather<std::uint32_t>(mesh_.triangles.size(), kMembersAtOnce, threads,
+                                            [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& list) {
+                                              for (std::size_t t = first; t < last; ++t) {
+                                                if (!is_in_block(mesh_.triangles[t]))
+                                                  list.push_back(static_cast<std::uint32_t>(t));
+                                              }
+                                            });
   stored_.resize(boxes_.size());
 }
 

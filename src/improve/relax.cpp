@@ -27,7 +27,7 @@ Vec3 ideal_place(const BlockMesh& mesh, Index v) {
 }  // namespace
 
 std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field, Accuracy accuracy) {
-  constexpr double kLeastSine = 0.3;
+  constexpr double kLeastSineToMove = 0.3;
   constexpr double kLeastMove = 0.01;  // times the wanted size; less does not show
   const HalfEdgeMesh& c = mesh.connectivity;
   std::size_t moved = 0;
@@ -37,7 +37,7 @@ std::size_t relax_vertices(BlockMesh& mesh, SheetGuard& guard, BlockField& field
     const double size = double(mesh.size[v]);
     if (dot(move, move) < kLeastMove * size * kLeastMove * size) continue;
     const auto place = field.project(ideal, 0.5 * size, accuracy);
-    if (place && place->at != mesh.at[v]) moved += try_move(mesh, guard, v, *place, kLeastSine);
+    if (place && place->at != mesh.at[v]) moved += try_move(mesh, guard, v, *place, kLeastSineToMove);
   }
   return moved;
 }

@@ -22,11 +22,11 @@ void mark_close_sheets(BlockMesh& mesh) {
 
 }  // namespace
 
-SheetGuard::SheetGuard(BlockMesh& mesh, bool everywhere) : lo_(mesh.box.lo), everywhere_(everywhere) {
+SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : lo_(mesh.box.lo), guarding_(guarding) {
   double width = 0.0;
   for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
   cells_per_angstrom_ = static_cast<float>(kMostCells / width);
-  if (everywhere) {
+  if (guarding == Guarding::kEverywhere) {
     std::fill(mesh.is_guarded.begin(), mesh.is_guarded.end(), std::uint8_t{1});
   } else {
     mark_close_sheets(mesh);

@@ -8,12 +8,17 @@
 
 namespace gaussmesh {
 
+/// How triangles are kept from meeting.
+enum class Guarding {
+  kCloseSheets,  ///< exact tests where another sheet of the surface is near: fast, and nearly always enough
+  kEverywhere,   ///< exact tests of every change: slow, but then nothing rests on what counts as near
+};
+
 /// The triangles of a block that have another sheet near, and those that reach into it from outside, in a grid.
 class SheetGuard {
  public:
-  /// Marks the vertices of `mesh` that have another sheet near.
-  /// @param everywhere  mark all of them: slow, but then nothing rests on what counts as near
-  SheetGuard(BlockMesh& mesh, bool everywhere);
+  /// Marks the vertices of `mesh` that have another sheet near, or all of them.
+  SheetGuard(BlockMesh& mesh, Guarding guarding);
 
   static bool is_guarded(const BlockMesh& mesh, const Triangle& t) {
     return mesh.is_guarded[t[0]] || mesh.is_guarded[t[1]] || mesh.is_guarded[t[2]];
@@ -33,7 +38,7 @@ class SheetGuard {
     return visit_cells(box, [&](std::size_t cell) {
       for (std::int32_t n = head_[cell]; n >= 0; n = nodes_[n].next) {
         if (!box.meets(nodes_[n].box)) continue;
-        if (!everywhere_ && are_of_one_sheet(normal, nodes_[n].normal)) continue;
+        if (guarding_ == Guarding::kCloseSheets && are_of_one_sheet(normal, nodes_[n].normal)) continue;
         const std::uint32_t other = nodes_[n].triangle;
         if (other >= kFirstFixed) {
           if (pair_may_meet(mesh, t, mesh.fixed[other - kFirstFixed])) return true;
@@ -120,7 +125,7 @@ class SheetGuard {
 
   Vec3 lo_;
   float cells_per_angstrom_;
-  bool everywhere_;
+  Guarding guarding_;
   std::vector<std::int32_t> head_;  ///< by cell: its first node; made when there is one
   std::vector<Node> nodes_;
 };

@@ -84,8 +84,8 @@ class GrowthLimit {
 
   BlockMesh& mesh_;
   std::vector<std::array<Index, 2>> at_boundary_;  ///< edges whose ends are not both inner, some of them twice
-  std::vector<Index> lowered_;             ///< inner vertices whose edges are to be looked at
-  std::vector<std::uint8_t> is_waiting_;   ///< whether a vertex is among them
+  std::vector<Index> lowered_;                     ///< inner vertices whose edges are to be looked at
+  std::vector<std::uint8_t> is_waiting_;           ///< whether a vertex is among them
   bool has_lowered_boundary_ = false;
 };
 

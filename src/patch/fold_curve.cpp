@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 struct FoldJet {
   double value = 0.0;
   Vector3d gradient;
-  Vector3d hessian_row;   ///< derivatives of the slope along the axis
+  Vector3d hessian_row;  ///< derivatives of the slope along the axis
 };
 
 FoldJet fold_jet(const NearAtoms& atoms, double d, const Vector3d& p, int axis) {

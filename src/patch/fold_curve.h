@@ -11,8 +11,8 @@ namespace gaussmesh {
 
 /// A fold curve { phi = c, d(phi)/dx_k = 0 } followed through a box [CTL12].
 struct FoldCurve {
-  std::vector<Vec3> points;   ///< from the start, which is not among them, to near the place where it leaves the box
-  double length = 0.0;        ///< A
+  std::vector<Vec3> points;  ///< from the start, which is not among them, to near the place where it leaves the box
+  double length = 0.0;       ///< A
 };
 
 /// Follows the fold curve of `axis` from `start`, a point of it on the boundary of `box`, through the box. The curve

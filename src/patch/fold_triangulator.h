@@ -10,10 +10,10 @@ namespace gaussmesh {
 
 /// A connected piece of the surface in a cell, as proven through smaller cells.
 struct FoldComponent {
-  int chi = 1;                      ///< Euler number: 1 for a disc, 0 for a tube
+  int chi = 1;  ///< Euler number: 1 for a disc, 0 for a tube
   int boundary_loops = 1;
-  int fold_axis = -1;               ///< the piece is cut along the fold curves of this axis; -1: it needs no cut
-  std::vector<CoordPoint> roots;    ///< roots on the cell's edges that belong to it
+  int fold_axis = -1;             ///< the piece is cut along the fold curves of this axis; -1: it needs no cut
+  std::vector<CoordPoint> roots;  ///< roots on the cell's edges that belong to it
 };
 
 /// A cell whose surface is cut along fold curves.
@@ -39,11 +39,11 @@ class FoldTriangulator {
   const Patch& triangulate(const Lattice& lattice, const FoldCell& cell, std::span<const Loop> loops);
 
  private:
-  using Polygon = std::vector<int>;   ///< indices into vertices_
+  using Polygon = std::vector<int>;  ///< indices into vertices_
 
   bool assign_loops(const FoldCell& cell, std::span<const Loop> loops);
   bool triangulate_component(const FoldComponent& component, std::vector<Polygon> polygons);
-  using Arcs = std::vector<std::pair<int, int>>;   ///< ends of fold arcs
+  using Arcs = std::vector<std::pair<int, int>>;  ///< ends of fold arcs
   bool cut_along_folds(int axis, std::vector<Polygon>& polygons, Arcs& arcs);
   std::optional<Polygon> fold_arc(int axis, int from, const std::vector<int>& fold_vertices);
   bool triangulate_polygon(const Polygon& polygon);
@@ -58,7 +58,7 @@ class FoldTriangulator {
   Box box_;
   NearAtoms atoms_;
   std::vector<LoopVertex> vertices_;
-  std::vector<std::vector<Polygon>> loops_of_;   ///< by component
+  std::vector<std::vector<Polygon>> loops_of_;  ///< by component
   std::vector<std::array<int, 3>> triangles_;
   MinimalTriangulation minimal_;
   Patch patch_;

@@ -50,8 +50,8 @@ PlanePoint PatchTriangulator::project(const CoordPoint& p) const {
   return direction_.sign < 0 ? seen : PlanePoint{seen.b, seen.a};
 }
 
-const Patch& PatchTriangulator::triangulate(const CoordPoint& lo, const CoordPoint& hi,
-                                            const Direction& direction, std::span<const Loop> loops) {
+const Patch& PatchTriangulator::triangulate(const CoordPoint& lo, const CoordPoint& hi, const Direction& direction,
+                                            std::span<const Loop> loops) {
   lo_ = lo;
   hi_ = hi;
   direction_ = direction;
@@ -96,17 +96,13 @@ bool PatchTriangulator::make_polygons(std::span<const Loop> loops) {
 /// overlap, nothing is known.
 bool PatchTriangulator::are_separate_discs() const {
   return holes_.empty() && std::none_of(polygons_.begin(), polygons_.end(), [&](const Polygon& polygon) {
-    return std::any_of(polygons_.begin(), polygons_.end(),
-                       [&](const Polygon& other) { return strictly_inside(polygon, other[0].at); });
-  });
+           return std::any_of(polygons_.begin(), polygons_.end(),
+                              [&](const Polygon& other) { return strictly_inside(polygon, other[0].at); });
+         });
 }
 
 bool PatchTriangulator::boundaries_are_disjoint() const {
-  struct Segment {
-    PlanePoint p, q;
-    int from, to;
-  };
-  std::vector<Segment> sides;
+  std::vector<PolygonSide> sides;
   for (const auto* list : {&polygons_, &holes_}) {
     for (const Polygon& polygon : *list) {
       for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -115,17 +111,7 @@ bool PatchTriangulator::boundaries_are_disjoint() const {
       }
     }
   }
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (sides[i].p == sides[i].q) return false;
-    for (std::size_t j = i + 1; j < sides.size(); ++j) {
-      const Segment &s = sides[i], &t = sides[j];
-      const bool meet = s.to == t.from   ? segments_overlap(s.q, s.p, t.q)
-                        : t.to == s.from ? segments_overlap(t.q, t.p, s.q)
-                                         : segments_meet(s.p, s.q, t.p, t.q);
-      if (meet) return false;
-    }
-  }
-  return true;
+  return !sides_meet(sides);
 }
 
 bool PatchTriangulator::join_holes() {
@@ -151,9 +137,8 @@ bool PatchTriangulator::bridge(Polygon& outer, const Polygon& hole) {
       const double db = static_cast<double>(outer[i].at.b - hole[j].at.b);
       const double length = da * da + db * db;
       if (length >= best || !segment_is_clear(outer, outer[i], hole[j])) continue;
-      const bool clear = std::all_of(holes_.begin(), holes_.end(), [&](const Polygon& other) {
-        return segment_is_clear(other, outer[i], hole[j]);
-      });
+      const bool clear = std::all_of(holes_.begin(), holes_.end(),
+                                     [&](const Polygon& other) { return segment_is_clear(other, outer[i], hole[j]); });
       if (!clear) continue;
       best = length;
       best_i = i;
@@ -295,8 +280,8 @@ int PatchTriangulator::lift(const PlanePoint& at) {
   const LocalModel model(atoms_, decay, {start, end});
   const bool inside_lo = is_inside(field_, atoms_, model, start);
   if (inside_lo == is_inside(field_, atoms_, model, end)) return -1;
-  const LineRoot root = refine_root(atoms_, decay, start, axis, start[axis], end[axis], inside_lo,
-                                    0.5 * (start[axis] + end[axis]));
+  const LineRoot root =
+      refine_root(atoms_, decay, start, axis, start[axis], end[axis], inside_lo, 0.5 * (start[axis] + end[axis]));
   p[axis] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis] + 1, hi_[axis] - 1);
   LoopVertex v;
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());

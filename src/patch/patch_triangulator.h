@@ -20,7 +20,7 @@ namespace gaussmesh {
 struct LoopVertex {
   std::uint32_t vertex = 0;
   SurfacePoint point;
-  std::uint8_t faces = 0;   ///< bit 2 k: low face across axis k; bit 2 k + 1: high face
+  std::uint8_t faces = 0;  ///< bit 2 k: low face across axis k; bit 2 k + 1: high face
 };
 
 /// Boundary of the surface in a cell: closed, counter-clockwise round the surface seen from the solvent.
@@ -31,7 +31,7 @@ std::uint8_t faces_of(const CoordPoint& point, const CoordPoint& lo, const Coord
 
 /// Triangles of a cell; vertex numbers from kLocalVertex on count `points`.
 struct Patch {
-  bool complete = false;   ///< false: no embedded triangulation was found, the cell must be split
+  bool complete = false;  ///< false: no embedded triangulation was found, the cell must be split
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;
 };
@@ -56,7 +56,7 @@ class PatchTriangulator {
  private:
   struct Corner {
     PlanePoint at;
-    int vertex;              ///< index into vertices_
+    int vertex;  ///< index into vertices_
   };
   using Polygon = std::vector<Corner>;
 
@@ -81,7 +81,7 @@ class PatchTriangulator {
   Direction direction_;
   bool atoms_loaded_ = false;
   NearAtoms atoms_;
-  bool on_outline_ = true;              ///< every corner on the outline of the square: polygons are convex
+  bool on_outline_ = true;  ///< every corner on the outline of the square: polygons are convex
   std::vector<LoopVertex> vertices_;
   std::vector<Polygon> polygons_, holes_;
   MinimalTriangulation minimal_;

@@ -27,8 +27,8 @@ struct LongestSide {
 LongestSide longest_side(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
 
 /// Cost of the triangle p q r in a triangulation, >= 0, to be added up: 1 minus its quality 4 sqrt(3) area / sum of
-/// squared edges, and 2 (1 - cosine) of the angle between its normal and the field's mean at its corners; much more where
-/// they are far apart.
+/// squared edges, and 2 (1 - cosine) of the angle between its normal and the field's mean at its corners; much more
+/// where they are far apart.
 double shape_cost(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);
 
 }  // namespace gaussmesh

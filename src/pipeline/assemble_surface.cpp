@@ -106,7 +106,7 @@ class BrickTracer {
   const Lattice& lattice_;
   const CellStore& store_;
   FaceTracer tracer_;
-  LocalAtoms atoms_;  ///< near the brick
+  LocalAtoms atoms_;                                     ///< near the brick
   std::array<std::optional<CellStore::Place>, 3> next_;  ///< the cells beyond the one at hand, by axis
   std::vector<FaceRoot> roots_;
 };
@@ -198,14 +198,12 @@ class CellPatcher {
 
  private:
   /// @param hint, empty_faces  as LoopCollector takes them
-  void patch(const CellKey& key, const Direction& direction, std::uint32_t hint, unsigned empty_faces,
-             Result& result) {
+  void patch(const CellKey& key, const Direction& direction, std::uint32_t hint, unsigned empty_faces, Result& result) {
     const std::span<const Loop> loops = collector_.collect(key, hint, empty_faces);
     if (loops.empty()) return;
-    const Patch& patch =
-        direction.sign != 0
-            ? triangulator_.triangulate(lattice_.point(key.lo), lattice_.point(cell_hi(key)), direction, loops)
-            : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
+    const Patch& patch = direction.sign != 0 ? triangulator_.triangulate(lattice_.point(key.lo),
+                                                                         lattice_.point(cell_hi(key)), direction, loops)
+                                             : fold_triangulator_.triangulate(lattice_, folds_.at(key), loops);
     if (!patch.complete || fine_cells_.must_be_split(key) ||
         (key.level < finest_for_normals() && is_turned(patch, key))) {
       result.failed.push_back(key);
@@ -325,8 +323,8 @@ std::vector<CellKey> CellTriangulator::triangulate(const SplitLattice& split, co
   }
   for (const std::uint32_t cell : split.changed_cells()) tasks.push_back(all_bricks + cell);
   parallel_for_workers(tasks.size(), threads, 1, [&] {
-    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, for_improvement_,
-                                     fine_cells_)](std::size_t i) mutable {
+    return [&, patcher = CellPatcher(field_, lattice_, store_, split, folds, vertices, for_improvement_, fine_cells_)](
+               std::size_t i) mutable {
       PatchedCells result;
       if (tasks[i] < all_bricks) {
         const auto brick = static_cast<std::uint32_t>(tasks[i]);

@@ -23,7 +23,7 @@ void trace_bricks(const GaussianField& field, const Lattice& lattice, CellStore&
 struct PatchedCells {
   std::vector<Triangle> triangles;
   std::vector<SurfacePoint> points;
-  std::vector<std::uint16_t> counts;   ///< of triangles, by cell of a brick
+  std::vector<std::uint16_t> counts;  ///< of triangles, by cell of a brick
   std::vector<CellKey> failed;
   std::size_t fold_cells = 0;
 };
@@ -43,8 +43,8 @@ class CellTriangulator {
   /// Triangulates all cells in the first call, and then those that the last call of split.split() changed.
   /// @return those without an embedded triangulation, which must be split; when there are none, join() makes the
   /// surface of what was kept from all calls
-  std::vector<CellKey> triangulate(const SplitLattice& split, const FoldCellMap& folds,
-                                   const TracedVertices& vertices, int threads);
+  std::vector<CellKey> triangulate(const SplitLattice& split, const FoldCellMap& folds, const TracedVertices& vertices,
+                                   int threads);
 
   /// Cells that are cut along folds.
   std::size_t fold_cells() const;
@@ -58,7 +58,7 @@ class CellTriangulator {
   const CellStore& store_;
   bool for_improvement_;
   FineCells fine_cells_;
-  std::deque<PatchedCells> patched_;   ///< by brick, then by split cell
+  std::deque<PatchedCells> patched_;  ///< by brick, then by split cell
 };
 
 }  // namespace gaussmesh

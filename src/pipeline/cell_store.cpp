@@ -189,8 +189,8 @@ std::optional<CellStore::Place> CellStore::find(const FineIndex& lo, std::uint32
   const Brick& brick = bricks_[number];
   const std::uint64_t bit = 1ull << (local % 64);
   if (!(brick.occupied[local / 64] & bit)) return std::nullopt;
-  return Place{number, brick.rank[local / 64] +
-                           static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)))};
+  return Place{number,
+               brick.rank[local / 64] + static_cast<unsigned>(std::popcount(brick.occupied[local / 64] & (bit - 1)))};
 }
 
 FineIndex CellStore::lowest_corner(const Place& place) const {

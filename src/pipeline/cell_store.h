@@ -22,8 +22,8 @@ struct CellFace {
   bool is_divided : 1 = false;     ///< it is that of smaller cells
 };
 
-/// A cell of level 0. It owns the three edges and the three faces at its lowest corner. There is one for two triangles, so
-/// it is kept small.
+/// A cell of level 0. It owns the three edges and the three faces at its lowest corner. There is one for two triangles,
+/// so it is kept small.
 struct SurfaceCell {
   std::uint16_t local = 0;       ///< i + 8 (j + 8 k) within the brick
   std::uint16_t first_root = 0;  ///< roots on the edges along x, y, z, one after the other, counted in the brick
@@ -59,11 +59,11 @@ struct VertexRange {
 /// A cube of kBrickCells^3 cells.
 struct Brick {
   BrickIndex index{};
-  std::array<std::uint64_t, 8> occupied{};   ///< bit per cell
-  std::array<std::uint16_t, 8> rank{};       ///< cells in the words of `occupied` before
-  std::span<SurfaceCell> cells;              ///< by `local`
+  std::array<std::uint64_t, 8> occupied{};  ///< bit per cell
+  std::array<std::uint16_t, 8> rank{};      ///< cells in the words of `occupied` before
+  std::span<SurfaceCell> cells;             ///< by `local`
   std::span<const Link> links;
-  std::uint32_t first_vertex = 0;            ///< number of the first root's vertex in the mesh
+  std::uint32_t first_vertex = 0;  ///< number of the first root's vertex in the mesh
 };
 
 /// All cells of level 0. The roots on their edges are the first vertices of the mesh, by brick and cell. What bricks

@@ -8,8 +8,8 @@
 namespace gaussmesh {
 
 CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place) {
-  constexpr double kFarthest = 0.3;    // A
-  constexpr double kDifference = 1e-5; // A, for the Hessian by central differences
+  constexpr double kFarthest = 0.3;     // A
+  constexpr double kDifference = 1e-5;  // A, for the Hessian by central differences
   Box box;
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = place[k] - kFarthest - kDifference;

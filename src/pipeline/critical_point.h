@@ -9,7 +9,7 @@ namespace gaussmesh {
 struct CriticalPoint {
   Vec3 point{};
   double relative_value = 0.0;
-  bool converged = false;   ///< false: Newton's method went astray, and `point` is where it began
+  bool converged = false;  ///< false: Newton's method went astray, and `point` is where it began
 };
 
 /// Newton's method on grad log phi = 0 from `place`, within a few tenths of an A; where it goes astray the place

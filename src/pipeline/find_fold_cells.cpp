@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "core/parallel.h"
@@ -142,14 +141,13 @@ class CellSurface {
   std::vector<std::uint32_t> vertices_;
   std::vector<int> parent_;
   std::vector<std::pair<int, int>> links_;
-  std::vector<int> discs_;                  ///< a vertex of each
-  std::map<int, int> boundary_;             ///< links that are on the boundary of the cell
+  std::vector<int> discs_;       ///< a vertex of each
+  std::map<int, int> boundary_;  ///< links that are on the boundary of the cell
 };
 
 class FoldSearch {
  public:
-  FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split,
-             const TracedVertices& vertices)
+  FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split, const TracedVertices& vertices)
       : lattice_(lattice), store_(store), split_(split), vertices_(vertices) {
     for (const SplitCell& cell : split.cells()) {
       for (const LeafCell& leaf : cell.leaves) leaves_.emplace(leaf.key, &leaf);

@@ -10,7 +10,7 @@ struct FoldSearchResult {
   FoldCellMap folds;
   std::vector<CellKey> to_split;  ///< those of level 0 that are not in `folds`, though some in them may be
   std::vector<UncertifiedPlace> uncertified;
-  int finest_level = 0;           ///< of the cells that were looked at
+  int finest_level = 0;  ///< of the cells that were looked at
 };
 
 /// Puts the surface in every cell without a certificate together from smaller, certified cells in it, and finds the

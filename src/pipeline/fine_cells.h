@@ -19,8 +19,8 @@ class FineCells {
  public:
   FineCells(const Lattice& lattice, std::span<const FinePlace> places);
 
-  /// Whether the cell is larger than the cells that there are to be at some place, and nearer to it than one of those is
-  /// wide.
+  /// Whether the cell is larger than the cells that there are to be at some place, and nearer to it than one of those
+  /// is wide.
   bool must_be_split(const CellKey& cell) const { return cells_.contains(cell); }
 
  private:

@@ -38,8 +38,8 @@ void LoopCollector::collect_links(int axis, const FineIndex& lo, int level, std:
 void LoopCollector::collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side) {
   const std::int64_t half = fine_size(level + 1);
   for (int part = 0; part < 4; ++part) {
-    const FineIndex corner = moved(moved(lo, first_axis(axis), (part & 1) * half), second_axis(axis),
-                                   (part >> 1) * half);
+    const FineIndex corner =
+        moved(moved(lo, first_axis(axis), (part & 1) * half), second_axis(axis), (part >> 1) * half);
     collect_links(axis, corner, level + 1, hint, high_side);
   }
 }
@@ -62,8 +62,8 @@ void LoopCollector::build_loops(const CoordPoint& lo, const CoordPoint& hi) {
       used_[at] = true;
       const SurfacePoint& point = vertices_[links_[at].from];
       loop.push_back({links_[at].from, point, faces_of(point.position, lo, hi)});
-      const auto next = std::find_if(links_.begin(), links_.end(),
-                                     [&](const Link& link) { return link.from == links_[at].to; });
+      const auto next =
+          std::find_if(links_.begin(), links_.end(), [&](const Link& link) { return link.from == links_[at].to; });
       if (next == links_.end()) throw LatticeDegenerate(to_angstrom(point.position));
       at = static_cast<std::size_t>(next - links_.begin());
     }

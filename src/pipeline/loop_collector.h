@@ -23,7 +23,6 @@ class LoopCollector {
   std::span<const Loop> collect(const CellKey& key, std::uint32_t hint, unsigned empty_faces = 0);
 
   /// The links that the loops of the last call are made of.
-  std::span<const Link> links() const { return links_; }
 
  private:
   void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);

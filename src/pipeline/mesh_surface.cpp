@@ -37,7 +37,7 @@ class Stopwatch {
     last_ = now;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const double memory_MB = static_cast<double>(usage.ru_maxrss) / 1024.0;
+    const double memory_MB = static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;  // it counts in KiB
     for (StageCost& stage : stages_) {
       if (stage.name != name) continue;
       stage.time_s += time_s;
@@ -104,7 +104,7 @@ void describe_trace(const TraceResult& trace, double cell_size, MeshReport& repo
 
 /// Critical points with values near c at the places where the proof gave up; several places have one point in common.
 std::vector<CriticalPlace> critical_places(const GaussianField& field, const TraceResult& trace, double isovalue) {
-  constexpr double kSamePoint = 1e-3;  // A
+  constexpr double kSamePoint = 1e-3;     // A
   constexpr double kNearCritical = 1e-3;  // |log(phi / c)|; where it is more, the cells are too coarse for the surface
   std::vector<CriticalPlace> places;
   for (const UncertifiedPlace& place : trace.uncertified) {
@@ -158,8 +158,7 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
       }
     }
   }
-  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) +
-                        " can be certified");
+  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) + " can be certified");
 }
 
 /// V - F / 2, which is the Euler number of a closed mesh.
@@ -283,8 +282,7 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
                           number_text(*report.surface_distance, 3) + " A; choose a smaller spacing too");
   }
   give_back_memory();  // what the judge took
-  report.vertex_distance_max =
-      vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;
+  report.vertex_distance_max = vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;
   if (!(report.vertex_distance_max <= kVertexTolerance)) {
     throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
                         " A away from the surface: please report this molecule");

@@ -49,9 +49,8 @@ void SplitLattice::find_curves(std::size_t first_cell, int threads) {
   for (std::size_t first = first_cell; first < cells_.size(); first += kCellsAtOnce) {
     const std::size_t count = std::min(kCellsAtOnce, cells_.size() - first);
     const auto some = std::span(cells_).subspan(first, count);
-    parallel_for_workers(count, threads, kTasksAtOnce, [&] {
-      return [&](std::size_t i) { prepare(some[i], work[i]); };
-    });
+    parallel_for_workers(count, threads, kTasksAtOnce,
+                         [&] { return [&](std::size_t i) { prepare(some[i], work[i]); }; });
     find_edge_roots(some, work, threads);
     trace_faces(some, work, threads);
   }
@@ -122,8 +121,8 @@ void SplitLattice::prepare(SplitCell& cell, CellWork& work) const {
   std::vector<LeafCell> kept;
   for (LeafCell& leaf : cell.leaves) {
     const std::int64_t size = fine_size(leaf.key.level);
-    const LocalModel& model = work.models.emplace_back(work.atoms.within(proof_reach(leaf.key.level)),
-                                                       field_.decay(), cell_box(lattice_, leaf.key));
+    const LocalModel& model = work.models.emplace_back(work.atoms.within(proof_reach(leaf.key.level)), field_.decay(),
+                                                       cell_box(lattice_, leaf.key));
     if (leaf.is_inherited && !look_closer(leaf, model, work)) {
       work.models.pop_back();
       continue;
@@ -265,8 +264,8 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, std::span<CellW
     if (found.links.empty()) continue;
     faces_.insert(faces.keys[i]);
     const VertexRange inside = vertices_.add(found.points);
-    face_links_.push_back({static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(found.links.size()),
-                           inside});
+    face_links_.push_back(
+        {static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(found.links.size()), inside});
     const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? inside.first + (v - kLocalVertex) : v; };
     for (const Link& link : found.links) links_.push_back({numbered(link.from), numbered(link.to)});
   }

@@ -59,16 +59,15 @@ SplitLattice::SplitLattice(const GaussianField& field, const Lattice& lattice, c
 void SplitLattice::split(std::span<const CellKey> cells, int threads) {
   std::vector<Branch> branches(cells.size());
   parallel_for_workers(cells.size(), threads, 1, [&] {
-    return
-        [&, prover = CellProver(field_.decay()), atoms = LocalAtoms(field_)](std::size_t i) mutable {
-          const LeafCell cell = find_cell(cells[i]);
-          if (cell.direction.sign != 0) {
-            split_certified(cell, branches[i]);
-          } else {
-            atoms.move_to(cell_box(lattice_, cells[i]));
-            split_one(cells[i], atoms, prover, branches[i]);
-          }
-        };
+    return [&, prover = CellProver(field_.decay()), atoms = LocalAtoms(field_)](std::size_t i) mutable {
+      const LeafCell cell = find_cell(cells[i]);
+      if (cell.direction.sign != 0) {
+        split_certified(cell, branches[i]);
+      } else {
+        atoms.move_to(cell_box(lattice_, cells[i]));
+        split_one(cells[i], atoms, prover, branches[i]);
+      }
+    };
   });
   newly_split_.clear();
   changed_cells_.clear();

@@ -109,8 +109,8 @@ class SplitLattice {
     }
     bool operator==(const LatticeKey& other) const {
       return cell[0] == other.cell[0] && cell[1] == other.cell[1] && cell[2] == other.cell[2] &&
-             part[0] == other.part[0] && part[1] == other.part[1] && part[2] == other.part[2] &&
-             axis == other.axis && level == other.level;
+             part[0] == other.part[0] && part[1] == other.part[1] && part[2] == other.part[2] && axis == other.axis &&
+             level == other.level;
     }
   };
   struct LatticeKeyHash {
@@ -137,8 +137,8 @@ class SplitLattice {
     explicit CellWork(const GaussianField& field) : atoms(field), prover(field.decay()) {}
     LocalAtoms atoms;
     CellProver prover;
-    std::vector<LocalModel> models;          ///< of its leaves
-    std::vector<std::uint16_t> free_edges;   ///< of its leaves: bit 4 axis + corner: no surface on the edge
+    std::vector<LocalModel> models;         ///< of its leaves
+    std::vector<std::uint16_t> free_edges;  ///< of its leaves: bit 4 axis + corner: no surface on the edge
   };
   /// Edges or faces with numbers first .. last - 1, that a leaf of a split cell was the first to ask for.
   struct Task {
@@ -151,7 +151,7 @@ class SplitLattice {
   /// Edges or faces that leaves ask for, each once and in the order in which they are asked for.
   struct Wanted {
     LatticeKeys keys;
-    std::vector<std::uint8_t> known;  ///< by number: all that the leaves know of it, in bits
+    std::vector<std::uint8_t> known;       ///< by number: all that the leaves know of it, in bits
     std::vector<std::vector<Task>> tasks;  ///< by cell
   };
 
@@ -188,17 +188,18 @@ class SplitLattice {
   const CellStore& store_;
   TracedVertices& vertices_;
   std::vector<SplitCell> cells_;
-  KeyIndex<CellKey, CellKeyHash> folds_;  ///< cells that keep their size, which many faces ask about, and all round them
-  std::vector<FoldMark> fold_marks_;      ///< by number in folds_
+  KeyIndex<CellKey, CellKeyHash>
+      folds_;                         ///< cells that keep their size, which many faces ask about, and all round them
+  std::vector<FoldMark> fold_marks_;  ///< by number in folds_
   KeyIndex<CellKey, CellKeyHash> split_;
   std::vector<std::uint32_t> cell_of_;  ///< by number in split_: the entry of cells_ that its children are in
   std::vector<UncertifiedPlace> uncertified_;
   std::vector<CellKey> newly_split_;  ///< by the last call of split()
   std::vector<std::uint32_t> changed_cells_;
-  LatticeKeys edges_;  ///< those that have roots
-  LatticeKeys faces_;  ///< those that have curves
-  std::vector<VertexRange> edge_roots_;         ///< by number of the edge
-  std::vector<FaceLinks> face_links_;           ///< by number of the face
+  LatticeKeys edges_;                    ///< those that have roots
+  LatticeKeys faces_;                    ///< those that have curves
+  std::vector<VertexRange> edge_roots_;  ///< by number of the edge
+  std::vector<FaceLinks> face_links_;    ///< by number of the face
   std::vector<Link> links_;
 };
 

@@ -29,7 +29,6 @@ Lattice make_lattice(double spacing, const Vec3& fractions) {
 void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult& result) {
   result.boxes_by_level = store.boxes_by_level();
   for (const Brick& brick : store.bricks()) result.cells += brick.cells.size();
-  result.bricks = store.bricks().size();
   while (!result.boxes_by_level.empty() && result.boxes_by_level.back() == 0) result.boxes_by_level.pop_back();
   const int halvings = static_cast<int>(result.boxes_by_level.size()) - 1;
   result.smallest_box = lattice.cell_size() * std::ldexp(1.0, -std::max(0, halvings));

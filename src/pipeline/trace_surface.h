@@ -11,13 +11,12 @@ namespace gaussmesh {
 /// What the trace made, and how.
 struct TraceResult {
   SurfaceMesh surface;
-  std::vector<UncertifiedPlace> uncertified;   ///< not empty: no proof at the depth limit, and no surface
-  std::vector<std::size_t> boxes_by_level;     ///< cells, then parts of cells, halving
-  std::size_t bricks = 0;
+  std::vector<UncertifiedPlace> uncertified;  ///< not empty: no proof at the depth limit, and no surface
+  std::vector<std::size_t> boxes_by_level;    ///< cells, then parts of cells, halving
   std::size_t cells = 0;
   std::size_t cells_split = 0;
   std::size_t cells_cut_by_folds = 0;
-  double smallest_box = 0.0;                   ///< A
+  double smallest_box = 0.0;  ///< A
 };
 
 /// How finely the surface is to be traced.

@@ -79,9 +79,7 @@ class MeshLines {
   }
 
   /// As many things of at least `bytes` as the text can hold: what it announces is believed only so far.
-  std::size_t at_most(std::size_t announced, std::size_t bytes) const {
-    return std::min(announced, size_ / bytes + 1);
-  }
+  std::size_t at_most(std::size_t announced, std::size_t bytes) const { return std::min(announced, size_ / bytes + 1); }
 
   [[noreturn]] void fail(std::string_view expected) const {
     fail_at({name_, std::max<std::size_t>(lines_.number(), 1)}, expected, trim(line_));

@@ -105,8 +105,7 @@ class HeaderParser {
   void read_property() {
     if (header_.elements.empty()) fail("an element before its properties");
     const bool is_list = field(1) == "list";
-    Property property{field(is_list ? 4 : 2), type_of(field(is_list ? 3 : 1)),
-                      is_list ? type_of(field(2)) : nullptr};
+    Property property{field(is_list ? 4 : 2), type_of(field(is_list ? 3 : 1)), is_list ? type_of(field(2)) : nullptr};
     if (is_list && property.count_type->kind == Kind::kFloat) fail("a list whose length is a whole number");
     header_.elements.back().properties.push_back(property);
   }
@@ -249,8 +248,7 @@ void read_vertex(Numbers& numbers, const Element& element, std::vector<double>& 
     for (std::size_t k = 0; k < 3; ++k) {
       constexpr std::string_view kAxes = "xyz";
       if (property.name == kAxes.substr(k, 1)) point[k] = values[0];
-      if (property.name.size() == 2 && property.name[0] == 'n' && property.name[1] == kAxes[k])
-        normal[k] = values[0];
+      if (property.name.size() == 2 && property.name[0] == 'n' && property.name[1] == kAxes[k]) normal[k] = values[0];
     }
     if (property.name == "atom") file.data.atoms.push_back(to_index(numbers, values[0]));
     if (property.name == "component") file.data.components.push_back(to_index(numbers, values[0]));
@@ -302,8 +300,7 @@ void require_mesh(const Header& header, std::string_view name) {
     });
   };
   if (!has_element("vertex") || !has_element("face")) {
-    throw InputError(std::string(name) +
-                     ": expected elements 'vertex' with x, y, z and 'face', got a header without");
+    throw InputError(std::string(name) + ": expected elements 'vertex' with x, y, z and 'face', got a header without");
   }
 }
 

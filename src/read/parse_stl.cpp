@@ -20,8 +20,7 @@ constexpr std::size_t kNormal = 12;
 struct PointHash {
   std::size_t operator()(const Point& p) const {
     std::uint64_t hash = 0;
-    for (const double x : p)
-      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0xBF58476D1CE4E5B9u, hash ^= hash >> 31;
+    for (const double x : p) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0xBF58476D1CE4E5B9u, hash ^= hash >> 31;
     return hash;
   }
 };

@@ -97,7 +97,7 @@ void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
 }
 
 void FaceTracer::insert_fold_points(int from, int axis) {
-  constexpr int kSamples = 4;        // parts of a piece that are looked at for a change of sign
+  constexpr int kSamples = 4;  // parts of a piece that are looked at for a change of sign
   const int to = points_[from].next;
   Piece& piece = pieces_[points_[from].piece];
   const int over = first_axis(axis_) == piece.along ? second_axis(axis_) : first_axis(axis_);
@@ -118,8 +118,7 @@ void FaceTracer::insert_fold_points(int from, int axis) {
   }
 }
 
-double FaceTracer::find_fold_point(Piece& piece, int axis, double lo, double hi, double lo_slope,
-                                   double hi_slope) {
+double FaceTracer::find_fold_point(Piece& piece, int axis, double lo, double hi, double lo_slope, double hi_slope) {
   constexpr int kMostSteps = 100;    // every fourth one halves the bracket
   constexpr double kClosest = 2e-9;  // A: the coordinates' own unit
   double at = lo;
@@ -149,8 +148,8 @@ SurfacePoint FaceTracer::solve_on_piece(Piece& piece, double at) {
   const int over = first_axis(axis_) == along ? second_axis(axis_) : first_axis(axis_);
   SurfacePoint result;
   result.position = piece.rect.lo;
-  result.position[over] = std::clamp<Coord>(std::llround(at * kUnitsPerAngstrom), piece.rect.lo[over] + 1,
-                                            piece.rect.hi[over] - 1);
+  result.position[over] =
+      std::clamp<Coord>(std::llround(at * kUnitsPerAngstrom), piece.rect.lo[over] + 1, piece.rect.hi[over] - 1);
   Vec3 start = to_angstrom(result.position), end = start;
   end[along] = to_angstrom(piece.rect.hi[along]);
   if (piece.lo == Side::kUnknown) {
@@ -160,11 +159,11 @@ SurfacePoint FaceTracer::solve_on_piece(Piece& piece, double at) {
     piece.lo = inside_lo ? Side::kInside : Side::kOutside;
     piece.last = 0.5 * (start[along] + end[along]);
   }
-  const LineRoot root = refine_root(atoms, field_.decay(), start, along, start[along], end[along],
-                                    piece.lo == Side::kInside, piece.last);
+  const LineRoot root =
+      refine_root(atoms, field_.decay(), start, along, start[along], end[along], piece.lo == Side::kInside, piece.last);
   piece.last = root.position;
-  result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom),
-                                             piece.rect.lo[along] + 1, piece.rect.hi[along] - 1);
+  result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), piece.rect.lo[along] + 1,
+                                             piece.rect.hi[along] - 1);
   result.normal = outward_normal(root.gradient);
   return result;
 }
@@ -218,29 +217,11 @@ void FaceTracer::visit_sides(const Chain& chain, const Visit& visit) const {
 }
 
 bool FaceTracer::polygons_cross() const {
-  struct Segment {
-    PlanePoint p, q;
-    int from, to;
-  };
-  std::vector<Segment> sides;
+  std::vector<PolygonSide> sides;
   for (const Chain& chain : chains_) {
     visit_sides(chain, [&](int from, int to) { sides.push_back({plane(from), plane(to), from, to}); });
   }
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (sides[i].p == sides[i].q) return true;
-    for (std::size_t j = i + 1; j < sides.size(); ++j) {
-      const Segment &s = sides[i], &t = sides[j];
-      if (s.to == t.from && s.from == t.to) return true;
-      if (s.to == t.from) {
-        if (segments_overlap(s.q, s.p, t.q)) return true;
-      } else if (t.to == s.from) {
-        if (segments_overlap(t.q, t.p, s.q)) return true;
-      } else if (segments_meet(s.p, s.q, t.p, t.q)) {
-        return true;
-      }
-    }
-  }
-  return false;
+  return sides_meet(sides);
 }
 
 void FaceTracer::refine_all() {

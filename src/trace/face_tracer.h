@@ -69,7 +69,7 @@ class FaceTracer {
 
   /// @param hi         the corner of the rectangle opposite to `lo`; equal to it along `axis`
   /// @param fold_axes  bit k: keep the points of the curves where d(phi)/dx_k changes its sign, the fold points of
-  /// axis k
+  ///                   axis k
   /// @throws LatticeDegenerate where roots and curves do not fit together to rounding
   const FaceCurves& trace(int axis, const CoordPoint& lo, const CoordPoint& hi, FaceCertificate certificate,
                           std::span<const FaceRoot> roots, unsigned fold_axes = 0);
@@ -88,7 +88,7 @@ class FaceTracer {
   };
   struct Piece {
     Rect rect;
-    int along = 0;  ///< axis along which the section is single-valued in rect
+    int along = 0;             ///< axis along which the section is single-valued in rect
     Side lo = Side::kUnknown;  ///< of the low end of `along`, all over the piece
     double last = 0.0;         ///< coordinate along it of the point found last (A): the next is near
   };

@@ -38,8 +38,7 @@ std::vector<AtomTree::Group> AtomTree::group(const std::vector<Group>& members) 
 }
 
 /// Goes first to the groups that promise most, and not to those that promise less than is already found.
-AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const BoundingBox& place,
-                                    Best best) const {
+AtomTree::Best AtomTree::best_below(std::size_t level, std::size_t index, const BoundingBox& place, Best best) const {
   if (level == 0) {
     const double exponent = largest_exponent(group_at(0, index), place);
     return exponent > best.exponent ? Best{exponent, index} : best;

@@ -100,8 +100,7 @@ class AtomTree {
       return;
     }
     const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
-    for (std::size_t child = index * kFanOut; child < end; ++child)
-      visit_below(level - 1, child, place, least, visit);
+    for (std::size_t child = index * kFanOut; child < end; ++child) visit_below(level - 1, child, place, least, visit);
   }
 
   template <class Visit, class LeaveOut>

@@ -208,9 +208,9 @@ MeshCheck check_mesh(const TriangleMesh& mesh) {
 }
 
 bool MeshCheck::fit_for_solver() const {
-  const std::size_t defects = bad_indices + bad_coordinates + boundary_edges + nonmanifold_edges +
-                              misoriented_edges + nonmanifold_vertices + isolated_vertices + duplicate_vertices +
-                              degenerate_triangles + intersecting_pairs + inverted_components;
+  const std::size_t defects = bad_indices + bad_coordinates + boundary_edges + nonmanifold_edges + misoriented_edges +
+                              nonmanifold_vertices + isolated_vertices + duplicate_vertices + degenerate_triangles +
+                              intersecting_pairs + inverted_components;
   return triangles > 0 && defects == 0;
 }
 

@@ -39,8 +39,8 @@ void compare_boxes(const BoxArrays& boxes, std::size_t i, std::size_t first, std
 
 /// The sides along one axis of boxes round three corners each.
 GAUSSMESH_LANE_CLONES
-void find_sides(const float* a, const float* b, const float* c, float per_length, std::size_t count,
-                std::uint8_t* low, std::uint8_t* high) {
+void find_sides(const float* a, const float* b, const float* c, float per_length, std::size_t count, std::uint8_t* low,
+                std::uint8_t* high) {
   for (std::size_t i = 0; i < count; ++i) {
     const float least = std::min(a[i], std::min(b[i], c[i])) * per_length;
     const float most = std::max(a[i], std::max(b[i], c[i])) * per_length;
@@ -79,9 +79,8 @@ void CoarseBoxes::finish() {
 }
 
 void CoarseBoxes::compare(std::size_t i, std::size_t first) {
-  compare_boxes(
-      {{low_[0].data(), low_[1].data(), low_[2].data()}, {high_[0].data(), high_[1].data(), high_[2].data()}}, i,
-      first, size_, meets_.data());
+  compare_boxes({{low_[0].data(), low_[1].data(), low_[2].data()}, {high_[0].data(), high_[1].data(), high_[2].data()}},
+                i, first, size_, meets_.data());
 }
 
 }  // namespace gaussmesh::verify

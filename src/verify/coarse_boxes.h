@@ -41,8 +41,7 @@ class CoarseBoxes {
       std::uint64_t meeting = bits_of(meets_.data() + group);
       if (group <= i) meeting &= ~std::uint64_t{1} << (i - group);
       if (size_ - group < kAtOnce) meeting &= (std::uint64_t{1} << (size_ - group)) - 1;
-      for (; meeting != 0; meeting &= meeting - 1)
-        visit(group + static_cast<std::size_t>(std::countr_zero(meeting)));
+      for (; meeting != 0; meeting &= meeting - 1) visit(group + static_cast<std::size_t>(std::countr_zero(meeting)));
     }
   }
 

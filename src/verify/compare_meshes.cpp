@@ -31,8 +31,8 @@ void require_usable(const TriangleMesh& mesh, const char* which) {
                          std::to_string(vertex) + " that triangle " + std::to_string(t) + " names");
       for (const double x : mesh.vertices[vertex])
         if (!(std::abs(x) <= kLargestExact))
-          throw InputError(name + "expected coordinates within 1e60 A, got '" + std::to_string(x) +
-                           "' for vertex " + std::to_string(vertex));
+          throw InputError(name + "expected coordinates within 1e60 A, got '" + std::to_string(x) + "' for vertex " +
+                           std::to_string(vertex));
     }
 }
 
@@ -149,15 +149,15 @@ OneSidedDistance measure_from(const TriangleMesh& from, const TriangleTree& from
   constexpr std::size_t kBlocksInPart = TriangleTree::kPatchBlocks;
   const std::vector<std::uint32_t> first_triangle = find_first_triangles(from);
   std::vector<SampleSums> parts(chunk_count(from_tree.block_count(), kBlocksInPart));
-  parallel_for_chunks(
-      from_tree.block_count(), kBlocksInPart, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        Sampler sampler(from, to, to_tree, density);
-        for (const std::uint32_t t : from_tree.blocks(begin, end)) {
-          sampler.sample(from.triangles[t], parts[part]);
-          for (const std::uint32_t vertex : from.triangles[t])
-            if (first_triangle[vertex] == t) sampler.sample_vertex(vertex, parts[part]);
-        }
-      });
+  parallel_for_chunks(from_tree.block_count(), kBlocksInPart,
+                      [&](std::size_t part, std::size_t begin, std::size_t end) {
+                        Sampler sampler(from, to, to_tree, density);
+                        for (const std::uint32_t t : from_tree.blocks(begin, end)) {
+                          sampler.sample(from.triangles[t], parts[part]);
+                          for (const std::uint32_t vertex : from.triangles[t])
+                            if (first_triangle[vertex] == t) sampler.sample_vertex(vertex, parts[part]);
+                        }
+                      });
   return add_up(parts);
 }
 
@@ -165,8 +165,7 @@ void require_density(const TriangleMesh& mesh, double density) {
   constexpr double kMostSamples = 0x1p20;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Point& corner = mesh.vertices[a];
-    const double area =
-        length(cross(difference(mesh.vertices[b], corner), difference(mesh.vertices[c], corner))) / 2;
+    const double area = length(cross(difference(mesh.vertices[b], corner), difference(mesh.vertices[c], corner))) / 2;
     if (!(area * density <= kMostSamples))
       throw OptionError("samples per A^2: expected at most 2^20 samples in a triangle, got a triangle of " +
                         std::to_string(area) + " A^2");
@@ -181,8 +180,7 @@ double MeshComparison::hausdorff_bound() const {
   return std::max(first_to_second.max_bound, second_to_first.max_bound);
 }
 
-MeshComparison compare_meshes(const TriangleMesh& first, const TriangleMesh& second,
-                              const CompareOptions& options) {
+MeshComparison compare_meshes(const TriangleMesh& first, const TriangleMesh& second, const CompareOptions& options) {
   const double density = options.samples_per_A2;
   if (!(density > 0.0) || std::isinf(density))
     throw OptionError("samples per A^2: expected a number > 0, got '" + std::to_string(density) + "'");

@@ -12,9 +12,9 @@ namespace gaussmesh::verify {
 
 /// One component of EdgeTopology::components.
 struct ComponentGeometry {
-  double area = 0.0;    ///< Eq. (3) of [LCL15]
-  double volume = 0.0;  ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
-  int volume_sign = 0;  ///< exact, of the sum without rounding
+  double area = 0.0;                  ///< Eq. (3) of [LCL15]
+  double volume = 0.0;                ///< Eq. (4) of [LCL15] with its sign: positive where the triangles turn outwards
+  int volume_sign = 0;                ///< exact, of the sum without rounding
   std::vector<std::uint32_t> around;  ///< closed components that it lies inside of; none for one that is not closed
 };
 

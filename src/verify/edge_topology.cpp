@@ -145,13 +145,13 @@ constexpr std::size_t kVerticesInChunk = 4096;
 
 Tally count_all(const TriangleMesh& mesh, const VertexStars& stars) {
   std::vector<Tally> tallies(chunk_count(mesh.vertices.size(), kVerticesInChunk));
-  parallel_for_chunks(
-      mesh.vertices.size(), kVerticesInChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-        SpokeList spokes;
-        for (std::size_t v = begin; v < end; ++v) {
-          count_vertex(mesh, stars.star(v), static_cast<std::uint32_t>(v), spokes, tallies[chunk]);
-        }
-      });
+  parallel_for_chunks(mesh.vertices.size(), kVerticesInChunk,
+                      [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                        SpokeList spokes;
+                        for (std::size_t v = begin; v < end; ++v) {
+                          count_vertex(mesh, stars.star(v), static_cast<std::uint32_t>(v), spokes, tallies[chunk]);
+                        }
+                      });
   Tally all;
   for (const Tally& tally : tallies) {
     all.counts.boundary_edges += tally.counts.boundary_edges;
@@ -219,9 +219,8 @@ DisjointSets unite_neighbours(const TriangleMesh& mesh, const VertexStars& stars
     SpokeList spokes;
     for (std::size_t v = begin; v < end; ++v) {
       const auto vertex = static_cast<std::uint32_t>(v);
-      const bool is_manifold =
-          nonmanifold_vertices.empty() ||
-          !std::binary_search(nonmanifold_vertices.begin(), nonmanifold_vertices.end(), vertex);
+      const bool is_manifold = nonmanifold_vertices.empty() ||
+                               !std::binary_search(nonmanifold_vertices.begin(), nonmanifold_vertices.end(), vertex);
       unite_star(mesh, stars, vertex, is_manifold, spokes, sets);
     }
   });

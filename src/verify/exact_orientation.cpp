@@ -34,9 +34,7 @@ int orient2d(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return size == 0.0 ? 0 : exact_orient2d(a, b, c);
 }
 
-int orient3d(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return OrientedPlane(a, b, c).side(d);
-}
+int orient3d(const Point& a, const Point& b, const Point& c, const Point& d) { return OrientedPlane(a, b, c).side(d); }
 
 bool are_collinear(const Point& a, const Point& b, const Point& c) {
   for (int axis = 0; axis < 3; ++axis)

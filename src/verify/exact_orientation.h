@@ -26,9 +26,7 @@ inline bool is_exact_coordinate(double x) {
 }
 
 /// `point` without its coordinate `axis`; a counter-clockwise turn seen from +axis stays one.
-inline PlanePoint project_along(int axis, const Point& point) {
-  return {point[(axis + 1) % 3], point[(axis + 2) % 3]};
-}
+inline PlanePoint project_along(int axis, const Point& point) { return {point[(axis + 1) % 3], point[(axis + 2) % 3]}; }
 
 /// Sign of the area of the triangle a, b, c: +1 counter-clockwise, -1 clockwise, 0 collinear. Exact.
 int orient2d(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);

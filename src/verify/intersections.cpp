@@ -35,8 +35,7 @@ class PatchTester {
   /// @param begin, end  the blocks of the patch
   void find_all(std::size_t begin, std::size_t end, Intersections& found) {
     BoundingBox patch;
-    for (const std::uint32_t number : tree_.blocks(begin, end))
-      patch.include(box_of(mesh_, mesh_.triangles[number]));
+    for (const std::uint32_t number : tree_.blocks(begin, end)) patch.include(box_of(mesh_, mesh_.triangles[number]));
     boxes_.start(patch);
     triangles_.clear();
     for (const std::uint32_t number : tree_.blocks(begin, end)) list(number);
@@ -52,8 +51,7 @@ class PatchTester {
       boxes_.for_each_meeting(i, [&](std::size_t j) {
         if (are_in_one(fans, triangles_[j])) return;
         const std::uint32_t s = place(i), t = place(j);
-        if (meet_beyond_shared(placed_[s], placed_[t]))
-          append(found, triangles_[i].number(), triangles_[j].number());
+        if (meet_beyond_shared(placed_[s], placed_[t])) append(found, triangles_[i].number(), triangles_[j].number());
       });
     }
   }

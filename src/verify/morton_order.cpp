@@ -59,8 +59,7 @@ std::uint32_t morton_cell(const BoundingBox& box, const Point& point) {
 void sort_by_cell(std::span<MortonKey> keys) {
   constexpr std::size_t kWorthDigits = 500;  // keys; fewer are sorted faster by comparing
   if (keys.size() < kWorthDigits) {
-    std::stable_sort(keys.begin(), keys.end(),
-                     [](const MortonKey& a, const MortonKey& b) { return a.cell < b.cell; });
+    std::stable_sort(keys.begin(), keys.end(), [](const MortonKey& a, const MortonKey& b) { return a.cell < b.cell; });
     return;
   }
   const auto buffer = std::make_unique_for_overwrite<MortonKey[]>(keys.size());

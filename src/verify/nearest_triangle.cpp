@@ -38,8 +38,7 @@ double distance_sq_to_triangle(const Point& p, const Point& a, const Point& b, c
       return height * height / size_sq;
     }
   }
-  return std::min(
-      {distance_sq_to_segment(p, a, b), distance_sq_to_segment(p, b, c), distance_sq_to_segment(p, c, a)});
+  return std::min({distance_sq_to_segment(p, a, b), distance_sq_to_segment(p, b, c), distance_sq_to_segment(p, c, a)});
 }
 
 NearestTriangle find_nearest_triangle(const Point& p, const TriangleMesh& mesh, const TriangleTree& tree,

@@ -46,9 +46,8 @@ constexpr std::size_t chunk_count(std::size_t count, std::size_t size) { return 
 /// Calls work(chunk, begin, end) for each of these chunks, which are the same for any number of threads.
 template <class Work>
 void parallel_for_chunks(std::size_t count, std::size_t size, const Work& work) {
-  parallel_for(chunk_count(count, size), [&](std::size_t chunk) {
-    work(chunk, chunk * size, std::min((chunk + 1) * size, count));
-  });
+  parallel_for(chunk_count(count, size),
+               [&](std::size_t chunk) { work(chunk, chunk * size, std::min((chunk + 1) * size, count)); });
 }
 
 }  // namespace gaussmesh::verify

@@ -192,8 +192,7 @@ void add_counts(const Batch& batch, const AngleLimits& limits, BatchSums& sums) 
     std::int64_t count = 0;
     for (std::size_t i = 0; i < kBatch; ++i) {
       const double least = batch.sine[i] * cosine;
-      count += std::int64_t{least >= batch.cosines[0][i] * sine} +
-               std::int64_t{least >= batch.cosines[1][i] * sine} +
+      count += std::int64_t{least >= batch.cosines[0][i] * sine} + std::int64_t{least >= batch.cosines[1][i] * sine} +
                std::int64_t{least >= batch.cosines[2][i] * sine};
     }
     sums.angle_at_least[limit] += count;

@@ -17,8 +17,7 @@ using namespace verify;
 
 namespace {
 
-constexpr std::size_t kPointsInRun =
-    512;  // one run is one thread's work; each starts afresh and has its own result
+constexpr std::size_t kPointsInRun = 512;  // one run is one thread's work; each starts afresh and has its own result
 
 constexpr double kPrecision = 1e-9;  // A
 

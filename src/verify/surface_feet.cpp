@@ -250,8 +250,7 @@ void FootFinder::find_in_lanes(std::span<const Point> starts, std::span<Foot> fe
   for (std::size_t lane = 0; lane < starts.size(); ++lane) box.include(walk.at[lane] = starts[lane]);
   const BoundingBox place = widened(box, reach_);
   choose(near_, place, chosen_);
-  const AtomView atoms{chosen_.x.data(), chosen_.y.data(), chosen_.z.data(), chosen_.radius_sq.data(),
-                       chosen_.size};
+  const AtomView atoms{chosen_.x.data(), chosen_.y.data(), chosen_.z.data(), chosen_.radius_sq.data(), chosen_.size};
   for (int step = 0; step < kMostSteps && !walk.is_over(starts.size()); ++step) {
     MomentLanes moments;
     sum_moments(atoms, in_lanes(walk, starts.size()), decay_, log_isovalue_, moments);
@@ -264,8 +263,7 @@ void FootFinder::find_in_lanes(std::span<const Point> starts, std::span<Foot> fe
       if (walk.lost[lane]) continue;
       Point& at = walk.at[lane];
       for (int k = 0; k < 3; ++k) at[k] += wanted / level.slope * level.gradient[k];
-      const double error =
-          level.curvature * wanted * wanted / 2 + rounding_ + left_out_ * std::exp(-level.log_ratio);
+      const double error = level.curvature * wanted * wanted / 2 + rounding_ + left_out_ * std::exp(-level.log_ratio);
       walk.arrived[lane] = error < precision_ * level.slope;
       walk.lost[lane] = !boxes_meet(place, {at, at});
       // The first step is the distance itself: no rounding of coordinates is in it.

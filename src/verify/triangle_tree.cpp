@@ -77,8 +77,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
       const std::size_t block = p * kPatchBlocks + i;
       BoundingBox box;
       if (block < block_count())
-        for (const std::uint32_t number : blocks(block, block + 1))
-          box.include(box_of(mesh, mesh.triangles[number]));
+        for (const std::uint32_t number : blocks(block, block + 1)) box.include(box_of(mesh, mesh.triangles[number]));
       for (int k = 0; k < 3; ++k) {
         block_boxes_[p].low[k][i] = static_cast<float>(box.low[k]);
         block_boxes_[p].high[k][i] = static_cast<float>(box.high[k]);

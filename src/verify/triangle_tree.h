@@ -74,8 +74,7 @@ class TriangleTree {
       return;
     }
     const std::size_t end = std::min((node + 1) * kFanOut, levels_[level - 1].size());
-    for (std::size_t child = node * kFanOut; child < end; ++child)
-      visit_below(level - 1, child, query, first, visit);
+    for (std::size_t child = node * kFanOut; child < end; ++child) visit_below(level - 1, child, query, first, visit);
   }
 
   template <class Visit>

@@ -64,8 +64,7 @@ void add_way_back(const Both& both, const Foot& foot, std::uint32_t triangle, Tw
   const double most_sq =
       distance_sq_to_triangle(foot.place, both.mesh.vertices[a], both.mesh.vertices[b], both.mesh.vertices[c]);
   if (most_sq <= found.surface_to_mesh * found.surface_to_mesh) return;
-  const double distance =
-      std::sqrt(find_nearest_triangle(foot.place, both.mesh, both.triangles, triangle).distance_sq);
+  const double distance = std::sqrt(find_nearest_triangle(foot.place, both.mesh, both.triangles, triangle).distance_sq);
   if (distance <= found.surface_to_mesh) return;
   found.surface_to_mesh = distance;
   found.farthest_of_surface = foot.place;

@@ -77,12 +77,8 @@ char* put_row(char* p, const Numbers& numbers, char separator, char end, const P
   return p;
 }
 
-inline char* put_point(char* p, const Point& point, char end) {
-  return put_row(p, point, ' ', end, put_coordinate);
-}
-inline char* put_normal(char* p, const Normal& normal, char end) {
-  return put_row(p, normal, ' ', end, put_fraction);
-}
+inline char* put_point(char* p, const Point& point, char end) { return put_row(p, point, ' ', end, put_coordinate); }
+inline char* put_normal(char* p, const Normal& normal, char end) { return put_row(p, normal, ' ', end, put_fraction); }
 
 /// The vertex numbers of a triangle, counted from `first`.
 inline char* put_triangle(char* p, const Triangle& triangle, std::uint64_t first, char end) {

@@ -10,7 +10,6 @@
 
 namespace gaussmesh {
 
-inline constexpr int kDecimals = 9;
 inline constexpr double kUnitsPerOne = 1e9;  ///< units of the last decimal
 
 /// Most characters of a number written here: a double in shortest form has at most 24.

@@ -23,8 +23,7 @@ constexpr double kDepths[] = {0.25, 0.05, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
 double doubled_area(const TriangleMesh& mesh, std::uint32_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  return length(
-      cross(difference(mesh.vertices[b], mesh.vertices[a]), difference(mesh.vertices[c], mesh.vertices[a])));
+  return length(cross(difference(mesh.vertices[b], mesh.vertices[a]), difference(mesh.vertices[c], mesh.vertices[a])));
 }
 
 /// The largest triangles of each component, largest first.
@@ -65,8 +64,7 @@ std::vector<RegionPoint> find_region_points(const TriangleMesh& mesh, const Mesh
   for (const MeshComponent& component : check.components) is_closed.push_back(component.closed);
   const auto large = find_large_triangles(mesh, check);
   const auto is_in_region = [&](const Point& point, std::uint32_t component) {
-    const std::vector<std::uint32_t> around =
-        find_components_around(point, mesh, check.component_of, is_closed, tree);
+    const std::vector<std::uint32_t> around = find_components_around(point, mesh, check.component_of, is_closed, tree);
     // Those around a point contain each other, so their number tells whether there are others than the ancestors.
     return around.size() == check.components[component].depth + 1 &&
            std::binary_search(around.begin(), around.end(), component);

@@ -115,27 +115,25 @@ std::string report_summary(const MeshReport& report) {
     time_s += s.time_s;
     memory_MB = s.peak_memory_MB;
   }
-  std::string text =
-      counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") + ", " +
-      counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) + " A^2, volume " +
-      number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " + number_text(memory_MB, 3) + " MB\n";
-  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " +
-          number_text(check.max_angle_deg, 4) + " degrees, smallest one " +
-          number_text(check.mean_min_angle_deg, 3) + " on average, " + number_text(100.0 * check.under_30_deg, 2) +
-          " % under 30; mean edge " + number_text(check.mean_edge, 3) + " A, shortest over longest " +
-          number_text(check.mean_edge_ratio, 3);
+  std::string text = counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") +
+                     ", " + counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) +
+                     " A^2, volume " + number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " +
+                     number_text(memory_MB, 3) + " MB\n";
+  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
+          " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
+          number_text(100.0 * check.under_30_deg, 2) + " % under 30; mean edge " + number_text(check.mean_edge, 3) +
+          " A, shortest over longest " + number_text(check.mean_edge_ratio, 3);
   if (report.surface_distance) text += "; within " + number_text(*report.surface_distance, 3) + " A of the surface";
   text += "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
-                               counted(cavities, "cavity", "cavities") + ", " +
-                               counted(handles, "handle", "handles");
+                               counted(cavities, "cavity", "cavities") + ", " + counted(handles, "handle", "handles");
   const std::string but = report.left_out.components == 0
                               ? ""
-                              : " but for " + counted(report.left_out.components, "component", "components") +
-                                    " of " + number_text(report.left_out.volume) + " A^3 left out on request";
+                              : " but for " + counted(report.left_out.components, "component", "components") + " of " +
+                                    number_text(report.left_out.volume) + " A^3 left out on request";
   if (report.certified) {
-    text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface" + but +
-            ": " + topology;
+    text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface" + but + ": " +
+            topology;
   } else {
     text += "NOT certified: c is too near a critical value; meshed c = " + number_text(report.isovalue_used, 15) +
             " instead" + but + ": " + topology;

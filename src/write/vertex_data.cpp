@@ -10,9 +10,7 @@ namespace gaussmesh {
 
 using namespace verify;
 
-
-std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms,
-                                              int threads) {
+std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads) {
   constexpr std::size_t kBlock = 1024;
   const AtomTree tree(atoms);
   std::vector<std::uint32_t> nearest(mesh.vertices.size());

@@ -25,8 +25,7 @@ void write_node_data(const MeshView& view, WholeFile& file, const char* name, in
   file.write("$EndNodeData\n");
 }
 
-void write_numbers(const MeshView& view, WholeFile& file, const char* name,
-                   const std::vector<std::uint32_t>& numbers) {
+void write_numbers(const MeshView& view, WholeFile& file, const char* name, const std::vector<std::uint32_t>& numbers) {
   if (numbers.empty()) return;
   write_node_data(view, file, name, 1, [&](char* p, std::size_t i) {
     p = put_integer(p, numbers[i]);
@@ -133,8 +132,8 @@ void write_gmsh_41(const MeshView& view, WholeFile& file) {
   for (const Entity& entity : entities) {
     const std::vector<std::uint32_t>& numbers = entity.triangles;
     if (numbers.empty()) continue;
-    file.write("2 " + std::to_string(entity.tag) + " " + std::string(kTriangle) + " " +
-               std::to_string(numbers.size()) + "\n");
+    file.write("2 " + std::to_string(entity.tag) + " " + std::string(kTriangle) + " " + std::to_string(numbers.size()) +
+               "\n");
     write_records(file, numbers.size(), 4 * kLongestIndex, [&](char* p, std::size_t i) {
       p = put_integer(p, std::uint64_t{numbers[i]} + 1);
       *p++ = ' ';

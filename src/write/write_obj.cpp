@@ -14,9 +14,8 @@ void write_obj(const MeshView& view, WholeFile& file) {
   write_records(file, normals.size(), 3 + kLongestPoint,
                 [&](char* p, std::size_t i) { return put_normal(put_text(p, "vn "), normals[i], '\n'); });
   if (normals.empty()) {
-    write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex, [&](char* p, std::size_t i) {
-      return put_triangle(put_text(p, "f "), mesh.triangles[i], 1, '\n');
-    });
+    write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex,
+                  [&](char* p, std::size_t i) { return put_triangle(put_text(p, "f "), mesh.triangles[i], 1, '\n'); });
     return;
   }
   const auto put_corner = [](char* p, std::uint32_t v) {

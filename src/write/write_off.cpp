@@ -12,9 +12,8 @@ void write_off(const MeshView& view, WholeFile& file) {
   file.write("OFF\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n");
   write_records(file, mesh.vertices.size(), kLongestPoint,
                 [&](char* p, std::size_t i) { return put_point(p, mesh.vertices[i], '\n'); });
-  write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex, [&](char* p, std::size_t i) {
-    return put_triangle(put_text(p, "3 "), mesh.triangles[i], 0, '\n');
-  });
+  write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex,
+                [&](char* p, std::size_t i) { return put_triangle(put_text(p, "3 "), mesh.triangles[i], 0, '\n'); });
 }
 
 }  // namespace gaussmesh

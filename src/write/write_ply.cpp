@@ -13,9 +13,9 @@ static_assert(std::endian::native == std::endian::little, "binary PLY is written
 
 std::string header(const MeshView& view, const char* encoding) {
   const VertexData& data = view.data;
-  std::string text =
-      std::string("ply\nformat ") + encoding + " 1.0\ncomment gaussmesh, lengths in A\nelement vertex " +
-      std::to_string(view.mesh.vertices.size()) + "\nproperty double x\nproperty double y\nproperty double z\n";
+  std::string text = std::string("ply\nformat ") + encoding + " 1.0\ncomment gaussmesh, lengths in A\nelement vertex " +
+                     std::to_string(view.mesh.vertices.size()) +
+                     "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!data.normals.empty()) text += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!data.atoms.empty()) text += "property uint atom\n";
   if (!data.components.empty()) text += "property uint component\n";
@@ -57,9 +57,8 @@ void write_ply_ascii(const MeshView& view, WholeFile& file) {
     p[-1] = '\n';
     return p;
   });
-  write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex, [&](char* p, std::size_t i) {
-    return put_triangle(put_text(p, "3 "), mesh.triangles[i], 0, '\n');
-  });
+  write_records(file, mesh.triangles.size(), 2 + 3 * kLongestIndex,
+                [&](char* p, std::size_t i) { return put_triangle(put_text(p, "3 "), mesh.triangles[i], 0, '\n'); });
 }
 
 }  // namespace gaussmesh

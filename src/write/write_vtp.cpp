@@ -35,8 +35,7 @@ std::string xml(const TriangleMesh& mesh, const VertexData& data) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(vertices) +
-      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+      std::to_string(vertices) + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
       std::to_string(triangles) + "\">\n<Points>\n";
   text += arrays.element("Float64", "position", 3, vertices * sizeof(Point));
   text += "</Points>\n<PointData";

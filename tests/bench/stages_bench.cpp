@@ -176,8 +176,7 @@ void improve_molecule(benchmark::State& state, const Workload& work) {
     state.PauseTiming();
     SurfaceMesh traced = work.traced;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(
-        improve_surface(std::move(traced), work.field, targets, Guarding::kCloseSheets, kThreads));
+    benchmark::DoNotOptimize(improve_surface(std::move(traced), work.field, targets, Guarding::kCloseSheets, kThreads));
   }
   count_items(state, work.improved.mesh.triangles.size());
 }
@@ -206,8 +205,8 @@ void write_format(benchmark::State& state, const Workload& work, const std::stri
 void mesh_molecule(benchmark::State& state, const Workload& work, bool is_raw) {
   std::size_t triangles = 0;
   for (auto _ : state) {
-    triangles = (is_raw ? mesh_raw(work.atoms, work.options) : mesh_surface(work.atoms, work.options))
-                    .mesh.triangles.size();
+    triangles =
+        (is_raw ? mesh_raw(work.atoms, work.options) : mesh_surface(work.atoms, work.options)).mesh.triangles.size();
   }
   count_items(state, triangles);
 }

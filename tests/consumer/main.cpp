@@ -1,8 +1,8 @@
 // What a user of the installed library writes: public headers, one target, no knowledge of the source tree.
-#include <cstdio>
-
 #include <gaussmesh/check_mesh.h>
 #include <gaussmesh/version.h>
+
+#include <cstdio>
 
 int main() {
   const gaussmesh::TriangleMesh tetrahedron = {

@@ -148,8 +148,8 @@ TEST_CASE("atoms on a grid, lined up with the lattice") {
     for (std::int64_t x = 0; x < nx; ++x) {
       for (std::int64_t y = 0; y < ny; ++y) {
         for (std::int64_t z = 0; z < nz; ++z) {
-          p.atoms.push_back({step * static_cast<double>(x), step * static_cast<double>(y),
-                             step * static_cast<double>(z), radius, 0});
+          p.atoms.push_back(
+              {step * static_cast<double>(x), step * static_cast<double>(y), step * static_cast<double>(z), radius, 0});
         }
       }
     }

@@ -23,8 +23,7 @@ struct FieldSample {
 inline std::vector<FieldSample> field_samples(std::uint64_t seed) {
   Random random(seed);
   std::vector<FieldSample> samples;
-  samples.push_back(
-      {"usual radii", random_cloud(random, {20, 6.0, 0.8, 2.2, 0.1}), box_around({0, 0, 0}, 5.0), 1.0});
+  samples.push_back({"usual radii", random_cloud(random, {20, 6.0, 0.8, 2.2, 0.1}), box_around({0, 0, 0}, 5.0), 1.0});
   samples.push_back(
       {"all radii zero", random_cloud(random, {30, 4.0, 0.8, 2.2, 1.0}), box_around({0, 0, 0}, 3.0), 1.0});
 
@@ -33,8 +32,7 @@ inline std::vector<FieldSample> field_samples(std::uint64_t seed) {
   samples.back().room = box_around({0.5, 0.0, 0.0}, 3.0);
 
   samples.push_back({"radii of 1000 A", {}, {}, 2.0});
-  samples.back().atoms = {
-      {-800.0, 0.0, 3.0, 1000.0, 0.0}, {1100.0, 5.0, 0.0, 900.0, 0.0}, {200.0, 2.0, 3.0, 1.7, 0.0}};
+  samples.back().atoms = {{-800.0, 0.0, 3.0, 1000.0, 0.0}, {1100.0, 5.0, 0.0, 900.0, 0.0}, {200.0, 2.0, 3.0, 1.7, 0.0}};
   samples.back().room = box_around({200.0, 0.0, 0.0}, 4.0);
 
   samples.push_back({"at 10^6 A", random_cloud(random, {15, 6.0, 0.8, 2.2, 0.1}), {}, 1.0});

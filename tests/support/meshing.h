@@ -64,8 +64,8 @@ inline std::vector<Atom> atom_shell(int count, double shell_radius, double radiu
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / count, rho = std::sqrt(1.0 - z * z);
     const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    atoms.push_back({shell_radius * rho * std::cos(angle), shell_radius * rho * std::sin(angle), shell_radius * z,
-                     radius, 0.0});
+    atoms.push_back(
+        {shell_radius * rho * std::cos(angle), shell_radius * rho * std::sin(angle), shell_radius * z, radius, 0.0});
   }
   return atoms;
 }

@@ -71,8 +71,7 @@ TEST_CASE("AMBER radii are those that PDB2PQR gives, but at the ends of chains")
     REQUIRE(wanted.size() > 600);
     std::string pdb;
     for (const NamedAtom& a : wanted) pdb += pdb_line(a);
-    for (const AtomFile& got :
-         {parse_pdb(pdb, "a.pdb", "amber"), parse_mmcif(mmcif_text(wanted), "a.cif", "amber")}) {
+    for (const AtomFile& got : {parse_pdb(pdb, "a.pdb", "amber"), parse_mmcif(mmcif_text(wanted), "a.cif", "amber")}) {
       REQUIRE(got.atoms.size() == wanted.size());
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         CAPTURE(file, i, wanted[i].residue, wanted[i].name);
@@ -119,9 +118,8 @@ TEST_CASE("the first model, the first of alternate locations, and no water") {
   water.residue = "HOH";
   next.number = "8";
   next.atom.x = 4.0;
-  const std::string text = "MODEL        1\n" + pdb_line(kCarbon, 'A') + pdb_line(other, 'B') +
-                           pdb_line(next, 'B') + pdb_line(water, ' ', "HETATM") + "ENDMDL\nMODEL        2\n" +
-                           pdb_line(other) + "ENDMDL\n";
+  const std::string text = "MODEL        1\n" + pdb_line(kCarbon, 'A') + pdb_line(other, 'B') + pdb_line(next, 'B') +
+                           pdb_line(water, ' ', "HETATM") + "ENDMDL\nMODEL        2\n" + pdb_line(other) + "ENDMDL\n";
   const AtomFile file = parse_pdb(text, "a.pdb", "bondi");
   REQUIRE(file.atoms.size() == 2);
   CHECK(file.atoms[0].x == 1.5);

@@ -77,12 +77,12 @@ TEST_CASE("read_atoms reads the base file") {
 }
 
 TEST_CASE("read_atoms reads dialects of PQR as the base file") {
-  const std::string name = GENERATE(
-      "01_chain", "02_whitespace", "03_whitespace_chain", "04_hetatm", "05_hetatm_glued", "06_serial_overflow",
-      "07_serial_stars", "08_neg_resnum", "09_big_resnum", "10_chain_glued_resnum", "11_icode", "14_crlf",
-      "15_cr_only", "16_remarks", "17_blank_lines", "18_tabs", "19_scientific", "20_fortran_D",
-      "21_trailing_columns", "22_leading_space", "23_lowercase", "24_bom", "25_no_final_newline", "26_comments",
-      "27_glued_names", "28_quoted_names", "29_space_in_chain_col", "36_gz");
+  const std::string name =
+      GENERATE("01_chain", "02_whitespace", "03_whitespace_chain", "04_hetatm", "05_hetatm_glued", "06_serial_overflow",
+               "07_serial_stars", "08_neg_resnum", "09_big_resnum", "10_chain_glued_resnum", "11_icode", "14_crlf",
+               "15_cr_only", "16_remarks", "17_blank_lines", "18_tabs", "19_scientific", "20_fortran_D",
+               "21_trailing_columns", "22_leading_space", "23_lowercase", "24_bom", "25_no_final_newline",
+               "26_comments", "27_glued_names", "28_quoted_names", "29_space_in_chain_col", "36_gz");
   CAPTURE(name);
   const AtomFile file = read_edge("dialect_" + name + ".pqr");
   require_same_atoms(file.atoms, read_edge("dialect_00_base.pqr").atoms);
@@ -147,8 +147,7 @@ TEST_CASE("read_atoms refuses broken files and names the line") {
       {"bad_06_missing_radius.pqr", ":10: expected serial, atom, residue"},
       {"bad_07_missing_field.pqr", ":1: expected serial, atom, residue"},
       {"bad_08_text_number.pqr", ":7: expected y (A) as a finite number, got 'abc'"},
-      {"bad_09_comma_decimal.pqr",
-       ":1: expected x (A) as a finite number, got '-8,901'; write decimals with a point"},
+      {"bad_09_comma_decimal.pqr", ":1: expected x (A) as a finite number, got '-8,901'; write decimals with a point"},
       {"bad_10_coord_nan.pqr", ":20: expected x (A) as a finite number, got 'nan'"},
       {"bad_11_coord_inf.pqr", ":20: expected x (A) as a finite number, got 'inf'"},
       {"bad_12_coord_neginf.pqr", ":20: expected x (A) as a finite number, got '-inf'"},
@@ -193,8 +192,7 @@ TEST_CASE("read_atoms reads plain text under a gzip name") {
 
 TEST_CASE("read_atoms refuses damaged gzip") {
   const std::string data = gzipped(content_of(edge_path("dialect_00_base.pqr")));
-  CHECK_THAT(error_of_file("cut.pqr.gz", data.substr(0, data.size() / 2)),
-             ContainsSubstring("the file is cut off"));
+  CHECK_THAT(error_of_file("cut.pqr.gz", data.substr(0, data.size() / 2)), ContainsSubstring("the file is cut off"));
   CHECK_THAT(error_of_file("head.pqr.gz", data.substr(0, 2)), ContainsSubstring("the file is cut off"));
   std::string flipped = data;
   flipped[data.size() - 6] ^= 1;  // a byte of the check sum

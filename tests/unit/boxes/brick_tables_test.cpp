@@ -58,7 +58,8 @@ bool passes_against(const ExactField& exact, const Box& box, int axis, int sign)
 
 }  // namespace
 
-TEST_CASE("no cell, face or edge that the surface passes through is dropped, and corners are on the side where they are") {
+TEST_CASE(
+    "no cell, face or edge that the surface passes through is dropped, and corners are on the side where they are") {
   const std::uint64_t seed = 46;
   CAPTURE(seed);
   Random random(seed);

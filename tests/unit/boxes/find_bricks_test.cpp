@@ -30,8 +30,7 @@ Vec3 random_direction(Random& random) {
 }
 
 /// Points of the surface on rays: every change of sign between samples along them.
-std::vector<Vec3> march(const ExactField& exact, const Vec3& from, const Vec3& direction, double length,
-                        int samples) {
+std::vector<Vec3> march(const ExactField& exact, const Vec3& from, const Vec3& direction, double length, int samples) {
   std::vector<Vec3> found;
   const auto at = [&](int i) {
     Vec3 p = from;
@@ -97,8 +96,7 @@ TEST_CASE("two atoms 10^6 A apart give the bricks of two spheres") {
 }
 
 TEST_CASE("the number of bricks grows with the area of a sphere, not with its volume") {
-  const std::size_t small = count_bricks({{0, 0, 0, 40.0, 0}}, 0.5),
-                    large = count_bricks({{0, 0, 0, 80.0, 0}}, 0.5);
+  const std::size_t small = count_bricks({{0, 0, 0, 40.0, 0}}, 0.5), large = count_bricks({{0, 0, 0, 80.0, 0}}, 0.5);
   CHECK(static_cast<double>(large) / static_cast<double>(small) == Approx(4.0).epsilon(0.1));
   // A plane of area A crosses about 1.5 A / size^2 cubes of a lattice.
   const double area = 4.0 * std::numbers::pi * 6400.0, brick_face = 16.0;

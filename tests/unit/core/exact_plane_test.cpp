@@ -94,8 +94,8 @@ TEST_CASE("segments_meet agrees with Cramer's rule on all segments of a small gr
             expected = is_on(p, q, r) || is_on(p, q, u) || is_on(r, u, p) || is_on(r, u, q);
           }
           if (segments_meet(p, q, r, u) != expected) {
-            FAIL(p.a << ' ' << p.b << ", " << q.a << ' ' << q.b << " and " << r.a << ' ' << r.b << ", " << u.a
-                     << ' ' << u.b << ": expected " << expected);
+            FAIL(p.a << ' ' << p.b << ", " << q.a << ' ' << q.b << " and " << r.a << ' ' << r.b << ", " << u.a << ' '
+                     << u.b << ": expected " << expected);
           }
           ++(expected ? meeting : apart);
         }
@@ -123,4 +123,28 @@ TEST_CASE("segments_overlap: only in the same direction from the common end") {
       if (segments_overlap(p, q, r) != expected) FAIL(q.a << ' ' << q.b << " and " << r.a << ' ' << r.b);
     }
   }
+}
+
+TEST_CASE("sides of polygons meet unless all they share is a corner between two of them") {
+  const auto polygon = [](std::vector<PlanePoint> corners, int first = 0) {
+    std::vector<PolygonSide> sides;
+    const int n = static_cast<int>(corners.size());
+    for (int i = 0; i < n; ++i) sides.push_back({corners[i], corners[(i + 1) % n], first + i, first + (i + 1) % n});
+    return sides;
+  };
+  const auto both = [](std::vector<PolygonSide> a, const std::vector<PolygonSide>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  };
+  const auto square = polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  CHECK_FALSE(sides_meet({}));
+  CHECK_FALSE(sides_meet(square));
+  CHECK_FALSE(sides_meet(both(square, polygon({{1, 1}, {1, 2}, {2, 1}}, 4))));
+  CHECK(sides_meet(both(square, polygon({{0, 1}, {1, 2}, {2, 1}}, 4))));   // touches a side
+  CHECK(sides_meet(both(square, polygon({{0, 0}, {1, 2}, {2, 1}}, 4))));   // a corner, by another number
+  CHECK(sides_meet(both(square, polygon({{-1, 1}, {1, 2}, {2, 1}}, 4))));  // crosses it
+  CHECK(sides_meet(polygon({{0, 0}, {4, 4}, {4, 0}, {0, 4}})));            // a bow tie
+  CHECK(sides_meet(polygon({{0, 0}, {4, 0}, {2, 0}, {2, 4}})));            // turns back upon itself
+  CHECK(sides_meet(polygon({{0, 0}, {4, 0}})));                            // there and back
+  CHECK(sides_meet(polygon({{0, 0}, {0, 0}, {4, 0}, {0, 4}})));            // a side of no length
 }

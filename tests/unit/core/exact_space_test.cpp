@@ -25,8 +25,7 @@ CoordPoint combined(CoordPoint p, Coord i, const CoordPoint& u, Coord j, const C
 }
 
 Coord determinant(const CoordPoint& u, const CoordPoint& v, const CoordPoint& w) {
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
-         u[2] * (v[0] * w[1] - v[1] * w[0]);
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
 int sign(Coord x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }

@@ -24,8 +24,8 @@ TEST_CASE("keys get numbers in the order in which they come, and keep them") {
   };
   for (int i = 0; i < 5000; ++i) {
     const CellKey key = some_key();
-    const auto [it, is_new] = expected.try_emplace({key.lo[0], key.lo[1], key.lo[2], key.level},
-                                                   static_cast<std::uint32_t>(expected.size()));
+    const auto [it, is_new] =
+        expected.try_emplace({key.lo[0], key.lo[1], key.lo[2], key.level}, static_cast<std::uint32_t>(expected.size()));
     CHECK(index.insert(key) == std::pair(it->second, is_new));
     CHECK(index[it->second] == key);
     const CellKey other = some_key();

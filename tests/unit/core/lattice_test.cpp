@@ -29,8 +29,7 @@ const Lattice kLattice{122070, {185965001, 207105002, -118035003}};
 }  // namespace
 
 TEST_CASE("a coordinate in A is what a reader makes of its nine decimals") {
-  for (const Coord c :
-       {Coord{0}, Coord{1}, Coord{-1}, Coord{999999999}, Coord{-1000000001}, Coord{1234567890123456}}) {
+  for (const Coord c : {Coord{0}, Coord{1}, Coord{-1}, Coord{999999999}, Coord{-1000000001}, Coord{1234567890123456}}) {
     CHECK(to_angstrom(c) == std::strtod(decimal(c).c_str(), nullptr));
   }
   const std::uint64_t seed = 1;

@@ -66,8 +66,7 @@ struct Widths {
   std::vector<double> excess;
 };
 
-Widths widths_around(const GaussianField& field, const ExactField& exact, const Vec3& p, double size,
-                     int halvings) {
+Widths widths_around(const GaussianField& field, const ExactField& exact, const Vec3& p, double size, int halvings) {
   Widths widths;
   for (int i = 0; i <= halvings; ++i, size *= 0.5) {
     const Box box = box_around(p, 0.5 * size);
@@ -281,9 +280,7 @@ TEST_CASE("one atom: the value is a parabola, and its bounds are close to exact"
   const NearAtoms one = list_of({{0.5}, {0.0}, {0.0}, {2.0}});
   const double decay = 0.7;
   const Box box{{1.0, -0.25, 0.5}, {1.5, 0.5, 1.0}};
-  const auto psi = [&](double x, double y, double z) {
-    return 2.0 - decay * ((x - 0.5) * (x - 0.5) + y * y + z * z);
-  };
+  const auto psi = [&](double x, double y, double z) { return 2.0 - decay * ((x - 0.5) * (x - 0.5) + y * y + z * z); };
   const LocalModel model(one, decay, box);
   const Range value = model.over_all().value();
   CHECK(value.hi == Approx(psi(1.0, 0.0, 0.5)).margin(1e-5));  // nearest point

@@ -33,10 +33,9 @@ TEST_CASE("gradient and Hessian are the derivatives of log phi") {
     std::vector<Vec3> points;
     double error;
   };
-  const Sample samples[] = {
-      {kAtoms, {{1.9, 0.4, 0.6}, {-1.1, -0.7, 1.4}, {0.9, 2.2, 2.1}}, 1e-5},
-      // a radius of 30 A is too large for single precision
-      {{{30, 0, 0, 30.0, 0}, {0, 1, 0, 1.5, 0}}, {{0.1, 0.4, 0.6}, {-0.9, 1.5, 0.2}}, 1e-8}};
+  const Sample samples[] = {{kAtoms, {{1.9, 0.4, 0.6}, {-1.1, -0.7, 1.4}, {0.9, 2.2, 2.1}}, 1e-5},
+                            // a radius of 30 A is too large for single precision
+                            {{{30, 0, 0, 30.0, 0}, {0, 1, 0, 1.5, 0}}, {{0.1, 0.4, 0.6}, {-0.9, 1.5, 0.2}}, 1e-8}};
   for (const Sample& sample : samples) {
     BlockField block(GaussianField(sample.atoms, d, c), kBox);
     for (const Vec3& p : sample.points) {
@@ -56,8 +55,9 @@ TEST_CASE("gradient and Hessian are the derivatives of log phi") {
       const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
       for (int n = 0; n < 6; ++n) {
         const int i = pairs[n][0], k = pairs[n][1];
-        const auto second = static_cast<double>((psi(i, step, k, step) - psi(i, step, k, -step) -
-                                                 psi(i, -step, k, step) + psi(i, -step, k, -step)) / (4 * step * step));
+        const auto second = static_cast<double>(
+            (psi(i, step, k, step) - psi(i, step, k, -step) - psi(i, -step, k, step) + psi(i, -step, k, -step)) /
+            (4 * step * step));
         CHECK(std::abs(jet.hessian[n] - second) < sample.error + 1e-5);
       }
     }

@@ -33,8 +33,7 @@ std::size_t sharp_edges(const TriangleMesh& mesh, double cosine) {
   std::size_t count = 0;
   for (const auto& [edge, t] : triangle_at) {
     const std::uint32_t other = triangle_at.at({edge.second, edge.first});
-    if (t < other)
-      count += dot(normal_of(mesh, mesh.triangles[t]), normal_of(mesh, mesh.triangles[other])) < cosine;
+    if (t < other) count += dot(normal_of(mesh, mesh.triangles[t]), normal_of(mesh, mesh.triangles[other])) < cosine;
   }
   return count;
 }

@@ -126,8 +126,7 @@ TEST_CASE("loops that are no boundary of a surface over the square are refused")
   CHECK(complete({loop_of(kSquare, 0)}));
   CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {1, 1, 0.5}}, 0)}));                            // two corners
   CHECK_FALSE(complete({loop_of({{0, 0, 0.5}, {0, 1, 0.5}, {1, 1, 0.5}, {1, 0, 0.5}}, 0)}));  // clockwise
-  CHECK_FALSE(
-      complete({loop_of(kSquare, 0), loop_of({{0.5, 0.5, 1}, {0.5, 1.5, 1}, {1.5, 0.5, 1}}, 4)}));  // crossing
+  CHECK_FALSE(complete({loop_of(kSquare, 0), loop_of({{0.5, 0.5, 1}, {0.5, 1.5, 1}, {1.5, 0.5, 1}}, 4)}));  // crossing
   CHECK_FALSE(complete({loop_of({{0.1, 0.2, 1}, {0.2, 0.4, 1}, {0.3, 0.2, 1}}, 0)}));  // a hole in nothing
 }
 
@@ -185,8 +184,8 @@ TEST_CASE("cells of clouds that are single-valued: what the loops enclose is fil
       const std::vector<Loop> loops = cell_loops(field, lattice, key);
       if (loops.empty()) continue;
       PatchTriangulator triangulator(field);
-      const Patch& patch = triangulator.triangulate(lattice.point(key.lo), lattice.point(cell_hi(key)),
-                                                    certificate.direction, loops);
+      const Patch& patch =
+          triangulator.triangulate(lattice.point(key.lo), lattice.point(cell_hi(key)), certificate.direction, loops);
       if (!patch.complete) {  // the cell would be split
         ++refused;
         continue;

@@ -13,9 +13,8 @@ namespace {
 /// A surface point whose normal leans by an angle from z towards x.
 SurfacePoint point(double x, double y, double lean_deg = 0.0) {
   const double angle = lean_deg * std::numbers::pi / 180.0;
-  return {to_coord(Vec3{x, y, 0.0}),
-          {static_cast<float>(std::sin(angle)), 0.0f, static_cast<float>(std::cos(angle))},
-          0};
+  return {
+      to_coord(Vec3{x, y, 0.0}), {static_cast<float>(std::sin(angle)), 0.0f, static_cast<float>(std::cos(angle))}, 0};
 }
 
 double cost(double x, double y, double lean_deg) {

@@ -206,10 +206,8 @@ TEST_CASE("two atoms drawn together: two components up to the critical level, on
 TEST_CASE("the critical distance of two atoms is where value_between is c") {
   const double decay = 0.5, r = 1.7, isovalue = 1.1;
   const double critical = 2.0 * std::sqrt(r * r - std::log(0.5 * isovalue) / decay);
-  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical - 1e-5, r), options(decay, isovalue, 0.8))) ==
-        kOneBall);
-  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical + 1e-5, r), options(decay, isovalue, 0.8))) ==
-        kTwoBalls);
+  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical - 1e-5, r), options(decay, isovalue, 0.8))) == kOneBall);
+  CHECK(topology(mesh_surface(pair_along({0, 0, 1}, critical + 1e-5, r), options(decay, isovalue, 0.8))) == kTwoBalls);
 }
 
 TEST_CASE("a ring of atoms is a torus, lying, standing and seen edge-on") {
@@ -253,8 +251,7 @@ TEST_CASE("a neck between two atoms keeps them together at every spacing; folds 
       for (const double spacing : {0.2, 0.5, 1.2, 2.5}) {
         CAPTURE(share, spacing);
         const double isovalue = share * value_between(distance, r, decay);
-        const MeshResult result =
-            mesh_surface(pair_along(direction, distance, r), options(decay, isovalue, spacing));
+        const MeshResult result = mesh_surface(pair_along(direction, distance, r), options(decay, isovalue, spacing));
         check_good(result);
         CHECK(topology(result) == kOneBall);
         cut += result.report.cells_cut_by_folds;
@@ -337,13 +334,19 @@ TEST_CASE("c within 1e-10 of a critical value is meshed, or refused with the pla
     std::vector<Atom> atoms;
   };
   const NearSaddle samples[] = {
-      {0.27689795718742721, 6.7581978983913968, 6.75819789913789, {1.6302978, 2.0083054, 1.4994598},
+      {0.27689795718742721,
+       6.7581978983913968,
+       6.75819789913789,
+       {1.6302978, 2.0083054, 1.4994598},
        {{2.3638733834608252, 2.0901444629338957, 2.573597397443582, 1.7565481192787282, 0},
         {2.4952958270222698, 1.8761015042790208, 0.88758450953714296, 1.1687236604320468, 0},
         {1.0971812224499944, 1.9205581162432697, 0.87097507920292794, 1.9258833780282893, 0},
         {1.6991788152161313, 1.741380218338942, 2.7911471661690954, 1.4568539035162256, 0},
         {0.58417445259316192, 2.6528044658676531, 0.37227311766544143, 1.4149605624544768, 0}}},
-      {0.36429720225805856, 6.7221756429671276, 6.72217564304632, {1.7425942, 1.3171846, 1.7908248},
+      {0.36429720225805856,
+       6.7221756429671276,
+       6.72217564304632,
+       {1.7425942, 1.3171846, 1.7908248},
        {{0.82166788568839311, 1.0579443205175181, 3.4372486879688857, 0.98022160053394636, 0},
         {1.7744947320524211, 2.2853556423262864, 1.2199564450062377, 0.81944277570537127, 0},
         {1.981906963532972, 1.2800087903231661, 1.6841913533736912, 2.0428799284014003, 0},
@@ -375,14 +378,16 @@ TEST_CASE("the message names a critical point to 1e-6 A, a zero as zero") {
   const double decay = 0.6, r = 1.5, distance = 3.6;
   const auto atoms = pair_along({0, 1, 3}, distance, r);
   const MeshOptions o = options(decay, value_between(distance, r, decay), 0.5);
-  CHECK_THAT(message_of([&] { mesh_surface(atoms, o); }), Catch::Matchers::ContainsSubstring("at (0, 0, 0) the surface"));
+  CHECK_THAT(message_of([&] { mesh_surface(atoms, o); }),
+             Catch::Matchers::ContainsSubstring("at (0, 0, 0) the surface"));
 }
 
 TEST_CASE("the crease between spheres of 1000 and 586 A is meshed with cells of 79 A") {
   // The normals turn within 0.001 A: cells are split at the crease, and their neighbours after them, round by round.
   check_good(mesh_surface({{1998.0942586480826, -265.09049091628964, -43.799361945600928, 1000, 0},
                            {552.97994221284409, 121.87264484370114, 4.8664311444222959, 585.89050206372247, 0},
-                           {494.94123963770119, 102.78009344559813, 40.932930801178628, 60.000639993914987, 0}}, options(0.49728125911820098, 1.9899949930991561, 79.45713612555403)));
+                           {494.94123963770119, 102.78009344559813, 40.932930801178628, 60.000639993914987, 0}},
+                          options(0.49728125911820098, 1.9899949930991561, 79.45713612555403)));
 }
 
 TEST_CASE("a maximum at c, a surface that is one point, is no surface that can be certified") {
@@ -431,10 +436,9 @@ TEST_CASE("options out of their range are refused by name") {
 TEST_CASE("atoms that cannot be are refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_AS(mesh_surface({}, {}), InputError);
-  for (const Atom& atom :
-       {Atom{0, 0, 0, -1.0, 0}, Atom{0, 0, 0, nan, 0}, Atom{0, 0, 0, infinity, 0}, Atom{nan, 0, 0, 1, 0},
-        Atom{0, nan, 0, 1, 0}, Atom{0, 0, nan, 1, 0},
-        Atom{0, infinity, 0, 1, 0}, Atom{0, 0, 2e6, 1, 0}, Atom{0, 0, 0, 2e5, 0}}) {
+  for (const Atom& atom : {Atom{0, 0, 0, -1.0, 0}, Atom{0, 0, 0, nan, 0}, Atom{0, 0, 0, infinity, 0},
+                           Atom{nan, 0, 0, 1, 0}, Atom{0, nan, 0, 1, 0}, Atom{0, 0, nan, 1, 0},
+                           Atom{0, infinity, 0, 1, 0}, Atom{0, 0, 2e6, 1, 0}, Atom{0, 0, 0, 2e5, 0}}) {
     CHECK_THROWS_AS(mesh_surface({{0, 0, 0, 1.5, 0}, atom}, {}), InputError);
   }
 }

@@ -93,7 +93,8 @@ TEST_CASE("curves on the faces of a leaf close: every vertex is left as often as
     std::map<std::uint32_t, int> balance;
     for (int face = 0; face < 6; ++face) {
       const FineIndex lo = Sample::face_of(leaf, face / 2, face % 2);
-      const CellKey beyond{moved(leaf.key.lo, face / 2, (face % 2 == 1 ? 1 : -1) * fine_size(leaf.key.level)), leaf.key.level};
+      const CellKey beyond{moved(leaf.key.lo, face / 2, (face % 2 == 1 ? 1 : -1) * fine_size(leaf.key.level)),
+                           leaf.key.level};
       if (s.split.is_split(beyond)) return;  // the curves are those of smaller faces
       const int way = face % 2 == 1 ? -1 : 1;
       for (const Link& link : s.split.face_links(face / 2, lo, leaf.key.level)) {

@@ -90,8 +90,7 @@ TEST_CASE("counts that the file does not keep") {
         "m.off:7: expected vertex 5 of 5: three finite coordinates, got '3 0 2 1'");
   CHECK(message_of(with(kTetrahedron, "4 4 6", "4 5 6")) ==
         "m.off:10: expected face 5 of 5: a triangle, '3' and three vertex numbers, got 'end of file'");
-  CHECK(message_of(with(kTetrahedron, "4 4 6", "4 3 6")) ==
-        "m.off:10: expected nothing after 3 faces, got '3 2 0 3'");
+  CHECK(message_of(with(kTetrahedron, "4 4 6", "4 3 6")) == "m.off:10: expected nothing after 3 faces, got '3 2 0 3'");
   // Announced, but believed only as far as there are bytes: else this would need 24 EB.
   CHECK_THAT(message_of("OFF 999999999999999999 999999999999999999 0\n0 0 0\n"), ContainsSubstring("m.off:2: "));
   CHECK_THAT(message_of("OFF 99999999999999999999 1 0\n"), ContainsSubstring("m.off:1: "));

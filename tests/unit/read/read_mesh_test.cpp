@@ -63,9 +63,9 @@ const TriangleMesh kTetrahedron = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
 
 TEST_CASE("every format gives back the same bits") {
   const MeshFile file = sample();
-  const std::pair<std::string, std::string> formats[] = {
-      {"off", "m.off"},    {"ply", "m.ply"},     {"ply-ascii", "m"}, {"obj", "m.obj"},
-      {"gmsh22", "m.msh"}, {"smesh", "m.smesh"}, {"msms", "m.vert"}};
+  const std::pair<std::string, std::string> formats[] = {{"off", "m.off"},  {"ply", "m.ply"},    {"ply-ascii", "m"},
+                                                         {"obj", "m.obj"},  {"gmsh22", "m.msh"}, {"smesh", "m.smesh"},
+                                                         {"msms", "m.vert"}};
   for (const auto& [format, name] : formats) {
     CAPTURE(format);
     const MeshFile back = write_and_read(file, format, name);
@@ -192,9 +192,8 @@ TEST_CASE("PLY that is none names the line or the byte") {
   CHECK(message(header + "0 0 0\n3 0 -1 0\n", "a").find("a:11: expected a number counted from 0") == 0);
   CHECK(message("ply\nformat ascii 2.0\n", "a").find("a:2: expected 'format'") == 0);
   CHECK(message("ply\nformat ascii 1.0\nend_header\n", "a").find("a: expected elements") == 0);
-  CHECK(
-      message("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n", "a").find("a:4: expected a property") ==
-      0);
+  CHECK(message("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n", "a").find("a:4: expected a property") ==
+        0);
   CHECK(message("ply\nformat ascii 1.0\n", "a").find("a:2: expected 'end_header'") == 0);
 }
 

@@ -241,8 +241,7 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
   }
 }
 
-TEST_CASE(
-    "roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
+TEST_CASE("roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
   const double decay = 0.6;
   const std::vector<Atom> atoms = {{-900.0, 0.0, 0.0, 1000.0, 0}, {900.0, 0.0, 0.0, 1000.0, 0}};
   const GaussianField field(atoms, decay, 1.3);

@@ -61,8 +61,7 @@ Traced trace(const GaussianField& field, const Face& face, unsigned fold_axes = 
   for (int side = 0; side < 4; ++side) {
     const auto [lo, axis] = edges[side];
     for (const EdgeRoot& root : finder.find(near, model, axis, lo, face.hi[axis])) {
-      result.roots.push_back(
-          {static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.side});
+      result.roots.push_back({static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.side});
     }
   }
   FaceTracer tracer(field, kLattice);
@@ -160,14 +159,12 @@ TEST_CASE("a corner of a face cut off by a sphere is one chord, with the molecul
   const ExactField exact(atoms, 0.6, 1.0);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double turn : {1.0, -1.0}) {
-      const Face face =
-          turn > 0 ? face_at(axis, 0.3, 1.0, 1.9, 1.0, 1.9) : face_at(axis, 0.3, -1.9, -1.0, -1.9, -1.0);
+      const Face face = turn > 0 ? face_at(axis, 0.3, 1.0, 1.9, 1.0, 1.9) : face_at(axis, 0.3, -1.9, -1.0, -1.9, -1.0);
       const Traced traced = trace(field, face);
       REQUIRE(traced.curves.links.size() == 1);
       CHECK(traced.curves.points.empty());
       check_curves(traced, face, exact);
-      const CoordPoint p = traced.position(traced.curves.links[0].from),
-                       q = traced.position(traced.curves.links[0].to);
+      const CoordPoint p = traced.position(traced.curves.links[0].from), q = traced.position(traced.curves.links[0].to);
       // Round the origin counter-clockwise.
       const int a = first_axis(axis), b = second_axis(axis);
       CHECK(along(p, a) * along(q, b) - along(p, b) * along(q, a) > 0.0);
@@ -371,8 +368,7 @@ TEST_CASE("faces of clouds: every root ends one curve with the molecule on its l
     const GaussianField field(atoms, decay, 1.0);
     const ExactField exact(atoms, decay, 1.0);
     for (int i = 0; i < 5; ++i) {
-      const double a = random.uniform(-4.0, 2.0), b = random.uniform(-4.0, 2.0),
-                   size = random.logarithmic(0.3, 5.0);
+      const double a = random.uniform(-4.0, 2.0), b = random.uniform(-4.0, 2.0), size = random.logarithmic(0.3, 5.0);
       const Face face =
           face_at(static_cast<int>(random.integer(0, 2)), random.uniform(-3.0, 3.0), a, a + size, b, b + size);
       const Traced traced = trace(field, face);

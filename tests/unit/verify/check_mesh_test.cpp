@@ -26,9 +26,9 @@ namespace {
 
 /// What is wrong with a mesh, by the names in MeshCheck; all that is not named must be 0.
 struct Wrong {
-  std::size_t bad_indices = 0, bad_coordinates = 0, boundary_edges = 0, nonmanifold_edges = 0,
-              misoriented_edges = 0, nonmanifold_vertices = 0, isolated_vertices = 0, duplicate_vertices = 0,
-              degenerate_triangles = 0, intersecting_pairs = 0, inverted_components = 0;
+  std::size_t bad_indices = 0, bad_coordinates = 0, boundary_edges = 0, nonmanifold_edges = 0, misoriented_edges = 0,
+              nonmanifold_vertices = 0, isolated_vertices = 0, duplicate_vertices = 0, degenerate_triangles = 0,
+              intersecting_pairs = 0, inverted_components = 0;
 };
 
 void check_defects(const MeshCheck& check, const Wrong& wrong) {
@@ -268,8 +268,7 @@ TEST_CASE("the order of vertices and triangles does not matter") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
   std::mt19937 engine(seed);
-  const TriangleMesh mesh =
-      together(together(torus(20, 10, 5, 1), icosphere(2, 1)), moved(icosphere(2, 1), {1, 0, 0}));
+  const TriangleMesh mesh = together(together(torus(20, 10, 5, 1), icosphere(2, 1)), moved(icosphere(2, 1), {1, 0, 0}));
   std::vector<std::uint32_t> number(mesh.vertices.size());
   std::iota(number.begin(), number.end(), 0u);
   std::shuffle(number.begin(), number.end(), engine);

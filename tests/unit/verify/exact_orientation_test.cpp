@@ -101,10 +101,8 @@ TEST_CASE("orient2d agrees with whole numbers where points are nearly collinear"
     const std::int64_t s = source.between(-5, 5);
     const Whole2 a{source.between(-most, most), source.between(-most, most)};
     const Whole2 b{source.between(-most, most), source.between(-most, most)};
-    const Whole2 c{a[0] + s * (b[0] - a[0]) + source.between(-1, 1),
-                   a[1] + s * (b[1] - a[1]) + source.between(-1, 1)};
-    if (orient2d(scaled(a, 0x1p-20), scaled(b, 0x1p-20), scaled(c, 0x1p-20)) != reference(a, b, c))
-      FAIL("case " << i);
+    const Whole2 c{a[0] + s * (b[0] - a[0]) + source.between(-1, 1), a[1] + s * (b[1] - a[1]) + source.between(-1, 1)};
+    if (orient2d(scaled(a, 0x1p-20), scaled(b, 0x1p-20), scaled(c, 0x1p-20)) != reference(a, b, c)) FAIL("case " << i);
   }
 }
 
@@ -137,8 +135,7 @@ TEST_CASE("orient3d is one answer for one set of points, however they are listed
 TEST_CASE("signs are exact up to the ends of the range of coordinates") {
   for (const double unit : {kSmallestExact, kLargestExact / 4}) {
     CHECK(orient3d({0, 0, 0}, {unit, 0, 0}, {0, unit, 0}, {0, 0, unit}) == 1);
-    CHECK(orient3d({unit, unit, unit}, {2 * unit, unit, unit}, {unit, 2 * unit, unit}, {3 * unit, unit, unit}) ==
-          0);
+    CHECK(orient3d({unit, unit, unit}, {2 * unit, unit, unit}, {unit, 2 * unit, unit}, {3 * unit, unit, unit}) == 0);
     CHECK(orient2d({0, 0}, {unit, 0}, {unit, unit}) == 1);
   }
   const double tiny = kSmallestExact, huge = kLargestExact;

@@ -68,8 +68,7 @@ TEST_CASE("a triangle of zero area turns no way, and its fans are not flat") {
 }
 
 TEST_CASE("the turns are those seen along each axis") {
-  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                          {{0, 1, 2}, {0, 2, 1}, {0, 2, 3}, {0, 3, 1}}};
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 1}, {0, 2, 3}, {0, 3, 1}}};
   const FanFacts facts = facts_of(mesh);
   CHECK(int{facts.turns[0]} == 0b000100);
   CHECK(int{facts.turns[1]} == 0b100000);

@@ -18,9 +18,7 @@ using shapes::turned;
 
 namespace {
 
-double distance_between(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
+double distance_between(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 std::vector<Point> random_points(std::mt19937& engine, int count, double box) {
   std::uniform_real_distribution<double> place(-box, box);
@@ -89,8 +87,7 @@ TEST_CASE("charges are inside, outside, in a cavity, and in a solid inside a cav
 
 TEST_CASE("a charge right below a vertex or an edge is inside once, not twice or never") {
   const TriangleMesh mesh = cube(1);
-  const std::vector<Atom> atoms{
-      {0, 0, 0, 1, 1}, {0.5, 0.5, 0, 1, 1}, {1.5, 1.5, 0, 1, 1}, {0.25, -0.25, 0.5, 1, 1}};
+  const std::vector<Atom> atoms{{0, 0, 0, 1, 1}, {0.5, 0.5, 0, 1, 1}, {1.5, 1.5, 0, 1, 1}, {0.25, -0.25, 0.5, 1, 1}};
   CHECK(find_charges_outside(mesh, check_mesh(mesh), atoms) == std::vector<std::uint32_t>{2});
 }
 

@@ -128,8 +128,8 @@ TEST_CASE("atoms that are left out do not count") {
     const Point p{place(engine), place(engine), place(engine)};
     double phi = 0.0;
     for (const Atom& a : atoms)
-      phi += std::exp(-decay * (std::pow(p[0] - a.x, 2) + std::pow(p[1] - a.y, 2) + std::pow(p[2] - a.z, 2) -
-                                a.radius * a.radius));
+      phi += std::exp(
+          -decay * (std::pow(p[0] - a.x, 2) + std::pow(p[1] - a.y, 2) + std::pow(p[2] - a.z, 2) - a.radius * a.radius));
     const SurfaceDistance found = distance_to_surface({{p}, {}}, atoms, decay, phi);
     CHECK(found.max_vertex_distance < 1e-9);
     const SurfaceDistance other = distance_to_surface({{p}, {}}, atoms, decay, phi * 1.000001);
@@ -142,8 +142,7 @@ TEST_CASE("points far from the surface find it, points without a way to it say s
   const TriangleMesh far{{{5000, 0, 0}}, {}};
   CHECK(distance_to_surface(far, atoms, 0.6, 1.0).max_vertex_distance == Approx(4998.5));
   const TriangleMesh centre{{{0, 0, 0}}, {}};
-  CHECK(distance_to_surface(centre, atoms, 0.6, 1.0).max_vertex_distance ==
-        std::numeric_limits<double>::infinity());
+  CHECK(distance_to_surface(centre, atoms, 0.6, 1.0).max_vertex_distance == std::numeric_limits<double>::infinity());
   const double above_all = 1e6;  // phi is nowhere that large: there is no surface
   CHECK(distance_to_surface(icosphere(1, 1.5), atoms, 0.6, above_all).max_vertex_distance ==
         std::numeric_limits<double>::infinity());

@@ -22,8 +22,7 @@ TEST_CASE("centroids and middles of edges are as deep in a sphere as the formula
   const TwoSidedDistance found = two_sided_distance(icosphere(0, radius), {{0, 0, 0, radius, 0}}, 1.0, 1.0);
   CHECK(found.samples == 20 + 30);
   CHECK(found.mesh_to_surface == Approx(radius - inradius).margin(1e-5));
-  CHECK(found.mean_mesh_to_surface ==
-        Approx((20 * (radius - inradius) + 30 * (radius - midradius)) / 50).margin(1e-5));
+  CHECK(found.mean_mesh_to_surface == Approx((20 * (radius - inradius) + 30 * (radius - midradius)) / 50).margin(1e-5));
   CHECK(found.surface_to_mesh == Approx(radius - inradius).margin(1e-5));
 }
 

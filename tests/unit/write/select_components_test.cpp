@@ -34,9 +34,7 @@ TEST_CASE("small cavities are left out with what lies in them") {
   CHECK(leave_out_cavities(check, kInfinity) == ComponentList{0});
 }
 
-TEST_CASE("outsides come before cavities") {
-  CHECK(outsides_first(check_mesh(nest())) == ComponentList{0, 2, 1, 3});
-}
+TEST_CASE("outsides come before cavities") { CHECK(outsides_first(check_mesh(nest())) == ComponentList{0, 2, 1, 3}); }
 
 TEST_CASE("extracted components are the mesh that they were, with their data") {
   const TriangleMesh mesh = nest();

@@ -10,9 +10,7 @@ TEST_CASE("nearest atoms are those of the largest share of phi, by comparison wi
   const std::uint64_t seed = 11;
   CAPTURE(seed);
   testing::Random random(seed);
-  const auto number = [&](double size) {
-    return size * 1e-6 * static_cast<double>(random.integer(-1000000, 1000000));
-  };
+  const auto number = [&](double size) { return size * 1e-6 * static_cast<double>(random.integer(-1000000, 1000000)); };
   std::vector<Atom> atoms;
   for (int i = 0; i < 300; ++i) atoms.push_back({number(20), number(20), number(20), std::abs(number(3)), 0.0});
   TriangleMesh mesh;
@@ -34,8 +32,7 @@ TEST_CASE("vertices are of the component of their triangles") {
   TriangleMesh mesh = shapes::together(shapes::cube(1), shapes::moved(shapes::cube(2), {9, 0, 0}));
   mesh.vertices.push_back({50, 0, 0});
   const std::vector<std::uint32_t> components = find_vertex_components(mesh, check_mesh(mesh));
-  for (std::size_t v = 0; v + 1 < mesh.vertices.size(); ++v)
-    CHECK(components[v] == (mesh.vertices[v][0] < 5 ? 1 : 0));
+  for (std::size_t v = 0; v + 1 < mesh.vertices.size(); ++v) CHECK(components[v] == (mesh.vertices[v][0] < 5 ? 1 : 0));
   CHECK(components.back() == kNoComponent);
 }
 

@@ -38,8 +38,7 @@ TEST_CASE("what is read back has the same bits") {
   TriangleMesh mesh;
   for (int i = 0; i < 20000; ++i) {
     Point p;
-    for (double& x : p)
-      x = to_angstrom(random.integer(-1000000000000000, 1000000000000000) >> random.integer(0, 50));
+    for (double& x : p) x = to_angstrom(random.integer(-1000000000000000, 1000000000000000) >> random.integer(0, 50));
     mesh.vertices.push_back(p);
   }
   for (std::uint32_t i = 0; i + 2 < 20000; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
