@@ -50,99 +50,117 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
   const LocalModel::View view = model.over_all();
   if (!known.is_crossed && is_excluded(view.value())) return {Kind::kExcluded, {}, 0};
 
-  const Vec3 gradient = view.middle_gradient();
-  std::array<int, 3> axes = {0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(gradient[a]) > std::abs(gradient[b]); });
+  const SortedAxes axes = sort_axes(view.middle_gradient());
   CellCertificate whole;
-  for (int axis : axes) {
+  for (const int axis : axes.number) {
     const int sign = known_sign(axis) != 0 ? known_sign(axis) : proven_sign(view.slope(axis));
     if (sign == 0) continue;
     if (whole.kind != Kind::kMonotone) whole = {Kind::kMonotone, along_axis(axis, sign), 0};
     whole.single_axes |= 1u << axis;
   }
   if (whole.kind == Kind::kMonotone) return whole;
-  if (depth_ == 0) return {Kind::kUncertified, {}, 0};
+  return depth_ == 0 ? CellCertificate{} : certify_by_eighths(atoms, model, axes);
+}
 
+CellCertificate CellProver::certify_by_eighths(const NearAtoms& atoms, const LocalModel& model,
+                                               const SortedAxes& axes) {
+  using Kind = CellCertificate::Kind;
   // What is known of each eighth of the cell is found once for all directions: by the cell's own model, which takes
   // no sums over atoms, and where that leaves all directions open in some eighth, by a model of each.
-  const Eighths eighths = eighths_of(model.box());
-  const PartProofs proofs = model.prove(eighths);
-  Part parts[8];
+  const Eighths boxes = eighths_of(model.box());
+  const PartProofs proofs = model.prove(boxes);
+  std::array<Eighth, 8> eighths;
   unsigned common = kAllDirections;
   for (int child = 0; child < 8; ++child) {
-    parts[child] = part_of(proofs.directions[child], proofs.is_surely_crossed[child]);
-    common &= parts[child].proven;
+    eighths[child].part = part_of(proofs.directions[child], proofs.is_surely_crossed[child]);
+    common &= eighths[child].part.proven;
   }
   if (common == kAllDirections) return {Kind::kExcluded, {}, 0};
   if (common != 0) {
-    for (const int axis : axes) {
+    for (const int axis : axes.number) {
       for (const int sign : {1, -1}) {
         if (common >> (2 * axis + (sign > 0)) & 1) return {Kind::kMonotone, along_axis(axis, sign), axes_of(common)};
       }
     }
   }
-  // Directions that fewest eighths leave open are looked at more closely first.
   cell_atoms_.restrict_from(atoms, model.box(), decay_, atoms.cut);
-  LocalModel models[8];
-  int open_parts[6] = {};
-  bool refuted[6] = {};
+  bool is_free = true;
   for (int child = 0; child < 8; ++child) {
-    Part& part = parts[child];
+    Part& part = eighths[child].part;
     if (part.proven != kAllDirections) {
       count_box(depth_);
-      models[child] = LocalModel(cell_atoms_, decay_, eighths[child]);
-      const LocalModel::View view_of_child = models[child].over_all();
-      const Part closer = part_of(view_of_child.directions(), view_of_child.is_surely_crossed());
+      eighths[child].model = LocalModel(cell_atoms_, decay_, boxes[child]);
+      const LocalModel::View view = eighths[child].model.over_all();
+      const Part closer = part_of(view.directions(), view.is_surely_crossed());
       part = {part.proven | closer.proven, part.refuted | closer.refuted};
     }
-    for (int direction = 0; direction < 6; ++direction) {
-      open_parts[direction] += !(part.proven >> direction & 1);
-      refuted[direction] = refuted[direction] || (part.refuted >> direction & 1);
-    }
+    is_free = is_free && part.proven == kAllDirections;
   }
-  if (std::all_of(parts, parts + 8, [](const Part& part) { return part.proven == kAllDirections; })) {
-    return {Kind::kExcluded, {}, 0};
+  if (is_free) return {Kind::kExcluded, {}, 0};
+  for (const int direction : promising_directions(eighths, axes)) {
+    const int axis = direction / 2, sign = direction % 2 == 1 ? 1 : -1;
+    const auto look = [&](const Eighth& eighth) { return (eighth.part.proven >> direction & 1) != 0; };
+    if (!refute(eighths, along_axis(axis, sign), look)) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
+  }
+  return certify_aslant(eighths);
+}
+
+std::vector<int> CellProver::promising_directions(const std::array<Eighth, 8>& eighths, const SortedAxes& axes) {
+  int open_parts[6] = {};
+  bool refuted[6] = {};
+  for (const Eighth& eighth : eighths) {
+    for (int direction = 0; direction < 6; ++direction) {
+      open_parts[direction] += !(eighth.part.proven >> direction & 1);
+      refuted[direction] = refuted[direction] || (eighth.part.refuted >> direction & 1);
+    }
   }
   // The gradient in the middle says little of a surface that only grazes the cell: the other signs come last.
-  int order[6];
-  for (int i = 0; i < 3; ++i) {
-    order[i] = 2 * axes[i] + (gradient[axes[i]] > 0.0);
-    order[i + 3] = order[i] ^ 1;
-  }
-  std::stable_sort(order, order + 6, [&](int a, int b) { return open_parts[a] < open_parts[b]; });
-  // Whether a direction is proven for the cell, given what tells at once that it is for an eighth.
-  const auto is_proven = [&](const Direction& direction, const auto& holds_in) {
-    for (int child = 0; child < 8; ++child) {
-      if (holds_in(child)) continue;
-      if (depth_ <= 1 || !prove_parts(cell_atoms_, models[child], direction, depth_ - 1)) return false;
+  std::vector<int> order;
+  for (const int against : {0, 1}) {
+    for (const int axis : axes.number) {
+      const int direction = 2 * axis + ((axes.gradient[axis] > 0.0) != (against == 1));
+      if (!refuted[direction]) order.push_back(direction);
     }
-    return true;
-  };
-  for (const int direction : order) {
-    if (refuted[direction]) continue;
-    const int axis = direction / 2, sign = direction % 2 == 1 ? 1 : -1;
-    const auto holds_in = [&](int child) { return parts[child].proven >> direction & 1; };
-    if (is_proven(along_axis(axis, sign), holds_in)) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
   }
-  // No axis: the surface bends too far. A direction in the midst of its gradients may do, and where it does not, one
-  // nearer to the gradient that was against it.
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return open_parts[a] < open_parts[b]; });
+  return order;
+}
+
+CellCertificate CellProver::certify_aslant(const std::array<Eighth, 8>& eighths) {
   GradientCone cone;
-  for (int child = 0; child < 8; ++child) {
-    if (parts[child].proven != kAllDirections) cone.add(models[child].over_all().middle_gradient());
+  for (const Eighth& eighth : eighths) {
+    if (eighth.part.proven != kAllDirections) cone.add(eighth.model.over_all().middle_gradient());
   }
   for (int attempt = 0; attempt < kMostDirections; ++attempt) {
     const Direction slanted = nearest_direction(cone.middle());
     if (!slanted.is_slanted()) break;
-    const auto holds_in = [&](int child) {
-      if (parts[child].proven == kAllDirections) return true;
-      const LocalModel::View whole_eighth = models[child].over_all();
-      refuting_gradient_ = whole_eighth.middle_gradient();  // unless parts of it tell better
-      return whole_eighth.proves(slanted);
+    const auto look = [&](const Eighth& eighth) {
+      return eighth.part.proven == kAllDirections || eighth.model.over_all().proves(slanted);
     };
-    if (is_proven(slanted, holds_in)) return {Kind::kMonotone, slanted, 0};
-    cone.add(refuting_gradient_);
+    const std::optional<Vec3> against = refute(eighths, slanted, look);
+    if (!against) return {CellCertificate::Kind::kMonotone, slanted, 0};
+    cone.add(*against);
   }
-  return {Kind::kUncertified, {}, 0};
+  return {};
+}
+
+template <typename Look>
+std::optional<Vec3> CellProver::refute(const std::array<Eighth, 8>& eighths, const Direction& direction,
+                                       const Look& holds_at_a_look) {
+  for (const Eighth& eighth : eighths) {
+    if (holds_at_a_look(eighth)) continue;
+    const std::optional<Vec3> against =
+        depth_ <= 1 ? eighth.model.over_all().middle_gradient() : refute_in_parts(eighth.model, direction, depth_ - 1);
+    if (against) return against;
+  }
+  return std::nullopt;
+}
+
+CellProver::SortedAxes CellProver::sort_axes(const Vec3& gradient) {
+  SortedAxes axes{gradient, {0, 1, 2}};
+  std::sort(axes.number.begin(), axes.number.end(),
+            [&](int a, int b) { return std::abs(gradient[a]) > std::abs(gradient[b]); });
+  return axes;
 }
 
 CellProver::Part CellProver::part_of(unsigned directions, bool is_surely_crossed) {
@@ -154,23 +172,20 @@ CellProver::Part CellProver::part_of(unsigned directions, bool is_surely_crossed
   return part;
 }
 
-bool CellProver::prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction, int depth) {
+std::optional<Vec3> CellProver::refute_in_parts(const LocalModel& model, const Direction& direction, int depth) {
   const Eighths eighths = eighths_of(model.box());
   const unsigned proven = model.prove_along(eighths, direction);
   for (int child = 0; child < 8; ++child) {
     if (proven >> child & 1) continue;
     count_box(depth);
-    const LocalModel closer(atoms, decay_, eighths[child]);
+    const LocalModel closer(cell_atoms_, decay_, eighths[child]);
     const LocalModel::View view = closer.over_all();
     if (view.proves(direction)) continue;
     const bool is_refuted = proven_sign(view.slope(direction)) == -direction.sign && view.is_surely_crossed();
-    if (depth <= 1 || is_refuted) {
-      refuting_gradient_ = view.middle_gradient();
-      return false;
-    }
-    if (!prove_parts(atoms, closer, direction, depth - 1)) return false;
+    if (depth <= 1 || is_refuted) return view.middle_gradient();
+    if (const std::optional<Vec3> against = refute_in_parts(closer, direction, depth - 1)) return against;
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace gaussmesh

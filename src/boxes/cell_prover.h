@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
 
 #include "core/direction.h"
 #include "field/lazy_model.h"
@@ -50,16 +53,42 @@ class CellProver {
   };
   static Part part_of(unsigned directions, bool is_surely_crossed);
 
-  /// Whether phi passes c as the direction says wherever it does in the box of the model: proven through its parts, or
-  /// not.
-  bool prove_parts(const NearAtoms& atoms, const LocalModel& model, const Direction& direction, int depth);
+  struct Eighth {
+    Part part;
+    LocalModel model;  ///< where not all directions are proven
+  };
+
+  /// By what phi does in the middle of the cell: those along which it changes most come first.
+  struct SortedAxes {
+    Vec3 gradient{};
+    std::array<int, 3> number{};
+  };
+  static SortedAxes sort_axes(const Vec3& gradient);
+
+  /// Where the cell as a whole shows nothing: what its eighths have in common, and parts of them. @return as certify()
+  CellCertificate certify_by_eighths(const NearAtoms& atoms, const LocalModel& model, const SortedAxes& axes);
+
+  /// Axes with their signs, numbered as bits, that no eighth refutes: those that fewest leave open come first.
+  static std::vector<int> promising_directions(const std::array<Eighth, 8>& eighths, const SortedAxes& axes);
+
+  /// Where no axis serves the surface bends too far. A direction in the midst of its gradients may do, and where it does
+  /// not, one nearer to the gradient that was against it.
+  CellCertificate certify_aslant(const std::array<Eighth, 8>& eighths);
+
+  /// Proves that phi passes c as the direction says wherever it does in the cell, given what tells so at once of an
+  /// eighth. @return nothing, or the gradient in a box that speaks against it
+  template <typename Look>
+  std::optional<Vec3> refute(const std::array<Eighth, 8>& eighths, const Direction& direction,
+                             const Look& holds_at_a_look);
+
+  /// The same through the parts of the model's box. @param depth  how often it may be halved
+  std::optional<Vec3> refute_in_parts(const LocalModel& model, const Direction& direction, int depth);
 
   void count_box(int depth) { ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)]; }
 
   double decay_;
-  int depth_ = 0;  ///< of the cell that is being looked at
-  NearAtoms cell_atoms_;
-  Vec3 refuting_gradient_{};  ///< in the box that ended the last proof that failed
+  int depth_ = 0;         ///< of the cell that is being looked at
+  NearAtoms cell_atoms_;  ///< that count in it
   std::vector<std::size_t> boxes_by_depth_ = std::vector<std::size_t>(16, 0);
 };
 

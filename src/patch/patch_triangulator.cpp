@@ -85,6 +85,8 @@ bool PatchTriangulator::make_polygons(std::span<const Loop> loops) {
     if (!positive && std::any_of(loop.begin(), loop.end(), on_side)) return false;
     (positive ? polygons_ : holes_).push_back(std::move(polygon));
   }
+  // Which of several outer boundaries a hole is in is a question of the curves, and chords may tell another tale.
+  if (!holes_.empty() && polygons_.size() != 1) return false;
   if (on_outline_) return holes_.empty();
   return boundaries_are_disjoint() && (!direction_.is_slanted() || are_separate_discs());
 }
@@ -115,16 +117,9 @@ bool PatchTriangulator::boundaries_are_disjoint() const {
 }
 
 bool PatchTriangulator::join_holes() {
-  for (const Polygon& hole : holes_) {
-    // The smallest polygon round the hole is the one that it is a hole of.
-    Polygon* round = nullptr;
-    for (Polygon& polygon : polygons_) {
-      if (!strictly_inside(polygon, hole[0].at)) continue;
-      if (!round || doubled_area(polygon) < doubled_area(*round)) round = &polygon;
-    }
-    if (!round || !bridge(*round, hole)) return false;
-  }
-  return true;
+  return std::all_of(holes_.begin(), holes_.end(), [&](const Polygon& hole) {
+    return strictly_inside(polygons_.front(), hole[0].at) && bridge(polygons_.front(), hole);
+  });
 }
 
 bool PatchTriangulator::bridge(Polygon& outer, const Polygon& hole) {
