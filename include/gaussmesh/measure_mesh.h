@@ -41,6 +41,7 @@ AtomMeasures measure_by_atoms(const TriangleMesh& mesh, const std::vector<Atom>&
 /// Exact, as check_mesh() is; a centre on the very surface is moved by an infinitesimal step. What is not closed
 /// does not count.
 ///
+/// @param mesh   every vertex number is there, all coordinates are finite
 /// @param check  of this mesh
 ///
 /// Cost: a few us a charge on one core, less with OpenMP threads. The answer does not depend on the number of

@@ -25,6 +25,7 @@ struct VertexData {
 ///
 /// @param mesh   finite coordinates
 /// @param atoms  at least one
+/// @param threads  0: one for each processor
 ///
 /// Cost: the atoms near each vertex, about 0.5 us a vertex. The answer does not depend on the number of threads.
 std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads);

@@ -54,6 +54,8 @@ class OutputFiles {
   /// Cost: about 0.05 us a triangle for OFF on one core.
   void add_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
                 const WriteOptions& options = {});
+
+  /// Makes a file of a text. @throws InputError if it cannot be written
   void add_text(std::string_view text, const std::filesystem::path& path);
 
   /// @throws InputError if a file cannot be put in its place

@@ -37,49 +37,46 @@ struct MeshVertices {
   std::vector<float> curvature;   ///< larger principal one (1/A) in absolute value; negative: not yet known
   std::vector<float> refinement;  ///< factor of the size where neighbouring triangles turned too far
 
+  /// Calls visit(array) for each of them.
+  template <typename Visit>
+  void visit_arrays(const Visit& visit) {
+    visit(at);
+    visit(normal);
+    visit(size);
+    visit(curvature);
+    visit(refinement);
+  }
+  /// Calls visit(array, the same one of `other`) for each of them.
+  template <typename Visit>
+  void visit_arrays(const MeshVertices& other, const Visit& visit) {
+    visit(at, other.at);
+    visit(normal, other.normal);
+    visit(size, other.size);
+    visit(curvature, other.curvature);
+    visit(refinement, other.refinement);
+  }
+
   void reserve(std::size_t count) {
-    at.reserve(count);
-    normal.reserve(count);
-    size.reserve(count);
-    curvature.reserve(count);
-    refinement.reserve(count);
+    visit_arrays([&](auto& array) { array.reserve(count); });
   }
   void resize(std::size_t count) {
-    at.resize(count);
-    normal.resize(count);
-    size.resize(count);
-    curvature.resize(count);
-    refinement.resize(count);
+    visit_arrays([&](auto& array) { array.resize(count); });
   }
   void append(const MeshVertices& from, std::size_t v) {
-    at.push_back(from.at[v]);
-    normal.push_back(from.normal[v]);
-    size.push_back(from.size[v]);
-    curvature.push_back(from.curvature[v]);
-    refinement.push_back(from.refinement[v]);
+    visit_arrays(from, [&](auto& array, const auto& others) { array.push_back(others[v]); });
   }
   /// Keeps the first ones alone and makes room for others behind them, `count` in all.
   void resize_beyond(std::size_t kept, std::size_t count, int threads) {
-    gaussmesh::resize_beyond(at, kept, count, threads);
-    gaussmesh::resize_beyond(normal, kept, count, threads);
-    gaussmesh::resize_beyond(size, kept, count, threads);
-    gaussmesh::resize_beyond(curvature, kept, count, threads);
-    gaussmesh::resize_beyond(refinement, kept, count, threads);
+    visit_arrays([&](auto& array) { gaussmesh::resize_beyond(array, kept, count, threads); });
   }
   void move(std::size_t from, std::size_t to) {
-    at[to] = at[from];
-    normal[to] = normal[from];
-    size[to] = size[from];
-    curvature[to] = curvature[from];
-    refinement[to] = refinement[from];
+    visit_arrays([&](auto& array) { array[to] = array[from]; });
   }
   /// Overwrites those from `first` on by all of `from`.
   void replace(std::size_t first, const MeshVertices& from) {
-    std::copy(from.at.begin(), from.at.end(), at.begin() + first);
-    std::copy(from.normal.begin(), from.normal.end(), normal.begin() + first);
-    std::copy(from.size.begin(), from.size.end(), size.begin() + first);
-    std::copy(from.curvature.begin(), from.curvature.end(), curvature.begin() + first);
-    std::copy(from.refinement.begin(), from.refinement.end(), refinement.begin() + first);
+    visit_arrays(from, [&](auto& array, const auto& others) {
+      std::copy(others.begin(), others.end(), array.begin() + static_cast<std::ptrdiff_t>(first));
+    });
   }
 };
 

@@ -27,6 +27,7 @@ class HalfEdgeMesh {
 
   /// kNone on the boundary.
   Index twin(Index h) const { return twin_[h]; }
+  /// The vertices at the beginning and the end of a half-edge, and the one across from it in its triangle.
   Index from(Index h) const { return corners_[h]; }
   Index to(Index h) const { return corners_[next(h)]; }
   Index opposite(Index h) const { return corners_[previous(h)]; }

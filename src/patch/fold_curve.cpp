@@ -32,7 +32,8 @@ std::optional<Vector3d> correct(const NearAtoms& atoms, double d, Vector3d p, in
     jacobian.row(1) = jet.hessian_row;
     const Eigen::Vector2d residual(jet.value, jet.gradient[axis]);
     const Eigen::Matrix2d normal = jacobian * jacobian.transpose();
-    if (!(std::abs(normal.determinant()) > 1e-12)) return std::nullopt;
+    // The two surfaces meet at a good angle: its sine squared is the determinant over the squared gradients.
+    if (!(normal.determinant() > 1e-12 * normal(0, 0) * normal(1, 1))) return std::nullopt;
     const Vector3d step = -jacobian.transpose() * normal.inverse() * residual;
     p += step;
     if (!((p - start).norm() <= farthest)) return std::nullopt;

@@ -8,12 +8,13 @@
 namespace gaussmesh {
 
 CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place) {
-  constexpr double kFarthest = 0.3;     // A
-  constexpr double kDifference = 1e-5;  // A, for the Hessian by central differences
+  const double width = 1.0 / std::sqrt(2.0 * field.decay());  // of a Gaussian (A)
+  const double farthest_step = 0.3 * width;
+  const double difference = 1e-5 * width;  // for the Hessian by central differences
   Box box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = place[k] - kFarthest - kDifference;
-    box.hi[k] = place[k] + kFarthest + kDifference;
+    box.lo[k] = place[k] - farthest_step - difference;
+    box.hi[k] = place[k] + farthest_step + difference;
   }
   NearAtoms atoms;
   field.collect_near(box, atoms);
@@ -27,9 +28,9 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
     Eigen::Matrix3d hessian;
     for (int k = 0; k < 3; ++k) {
       Vec3 before = at, after = at;
-      before[k] -= kDifference;
-      after[k] += kDifference;
-      hessian.col(k) = (gradient(after) - gradient(before)) / (2.0 * kDifference);
+      before[k] -= difference;
+      after[k] += difference;
+      hessian.col(k) = (gradient(after) - gradient(before)) / (2.0 * difference);
     }
     const Eigen::Vector3d step = -hessian.fullPivLu().solve(gradient(at));
     double farthest = 0.0;
@@ -38,15 +39,15 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
       next[k] += step[k];
       farthest = std::max(farthest, std::abs(next[k] - place[k]));
     }
-    if (!(farthest < kFarthest)) {
+    if (!(farthest < farthest_step)) {
       at = place;
       converged = false;
       break;
     }
     at = next;
     // The differences in the Hessian leave it a relative error of some 1e-6, so that late steps fall by that factor.
-    converged = step.norm() < 1e-9;
-    if (step.norm() < 1e-12) break;
+    converged = step.norm() < 1e-9 * width;
+    if (step.norm() < 1e-12 * width) break;
   }
   return {at, std::exp(evaluate(atoms, field.decay(), at).value), converged};
 }

@@ -12,7 +12,7 @@ struct CriticalPoint {
   bool converged = false;  ///< false: Newton's method went astray, and `point` is where it began
 };
 
-/// Newton's method on grad log phi = 0 from `place`, within a few tenths of an A; where it goes astray the place
+/// Newton's method on grad log phi = 0 from `place`, within a third of the width of a Gaussian; where it goes astray the place
 /// itself is the answer. For a message, not for a proof.
 CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place);
 

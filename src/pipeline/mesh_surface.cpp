@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
 #include "core/give_back_memory.h"
 #include "core/lattice_degenerate.h"
@@ -86,11 +85,6 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-void take_mesh(SurfaceMesh surface, MeshResult& result) {
-  result.mesh = std::move(surface.mesh);
-  result.normals = std::move(surface.normals);
-}
-
 void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
   report.boxes.clear();  // of an attempt before
   for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
@@ -166,59 +160,153 @@ std::int64_t euler_number(const TriangleMesh& mesh) {
   return static_cast<std::int64_t>(mesh.vertices.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
 }
 
-/// The traced surface, with the certificate in `report`.
-/// @throws CannotMeshError
-SurfaceMesh certified_trace(const GaussianField& field, const std::vector<Atom>& atoms, const TraceDemands& demands,
-                            int threads, Stopwatch& watch, MeshReport& report) {
-  const MeshOptions& options = report.options;
-  TraceResult trace;
-  try {
-    trace = trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
-    report.certified = trace.uncertified.empty();
-    if (!report.certified) {
-      report.critical = critical_places(field, trace, options.isovalue);
-      if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
-      if (!options.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options.isovalue));
-      trace = trace_beside(atoms, options, demands, threads, watch, report.isovalue_used);
+/// Makes one mesh; each step leaves in the result what is known so far.
+class SurfaceMesher {
+ public:
+  SurfaceMesher(const std::vector<Atom>& atoms, const MeshOptions& options)
+      : atoms_(atoms),
+        options_(options),
+        threads_(thread_count(options.threads)),
+        watch_(result_.report.stages, options.on_stage_end),
+        field_(atoms, options.decay, options.isovalue),
+        demands_{options.spacing, options.improve} {
+    watch_.finished("field");
+    MeshReport& report = result_.report;
+    report.atoms = atoms.size();
+    report.options = options;
+    report.isovalue_used = options.isovalue;
+  }
+
+  MeshResult run() {
+    if (options_.improve) {
+      mesh_improved();
+    } else {
+      mesh_as_traced();
     }
-  } catch (const LatticeDegenerate& degenerate) {
-    throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+    require_promises();
+    return std::move(result_);
   }
-  give_back_memory();  // cells, roots and curves, most of what there is up to here
-  describe_trace(trace, options.spacing, report);
-  if (trace.surface.mesh.triangles.empty()) {
-    throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options.isovalue) +
-                          " everywhere; choose a smaller c");
+
+ private:
+  void mesh_as_traced() {
+    take_mesh(trace());
+    result_.report.check = check_mesh(result_.mesh);
+    if (options_.measure_distance) measure_distance();
   }
-  return std::move(trace.surface);
-}
 
-/// Improves a traced mesh; `result` gets it with the judge's verdict.
-/// @return the corners of triangles with small angles that are left; nothing if the mesh may not be given out
-std::optional<std::vector<Vec3>> improve(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                                         Guarding guarding, int threads, Stopwatch& watch, MeshResult& result) {
-  const auto& on_progress = result.report.options.on_improving;
-  const std::int64_t chi = euler_number(traced.mesh);
-  ImprovedSurface improved = improve_surface(std::move(traced), field, targets, guarding, threads, on_progress);
-  const bool same_topology = euler_number(improved.surface.mesh) == chi;
-  take_mesh(std::move(improved.surface), result);
-  watch.finished("improve");
-  result.report.check = check_mesh(result.mesh);
-  watch.finished("verify");
-  if (!same_topology || !result.report.check.fit_for_solver()) return std::nullopt;
-  return std::move(improved.thin);
-}
+  /// Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another attempt.
+  void mesh_improved() {
+    constexpr int kMostAttempts = 4;
+    SizeTargets targets;
+    targets.spacing = options_.spacing;
+    targets.tolerance = options_.tolerance;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      improve_until_no_angle_is_small(targets);
+      if (!is_good()) return;
+      if (options_.measure_distance || options_.tolerance > 0.0) measure_distance();
+      watch_.finished("verify");
+      if (options_.tolerance == 0.0 || *result_.report.surface_distance <= options_.tolerance) return;
+      targets.tolerance *= 0.6;
+    }
+  }
 
-/// Asks for smaller cells where small angles are left: triangles that bridge what is finer than they are cannot always
-/// be mended, but those of a finer trace can. @return whether there is such a trace to be tried
-bool ask_for_finer_trace(const std::vector<Vec3>& thin, TraceDemands& demands) {
-  constexpr int kLevels[] = {3, 5};  // one after the other
-  const int before = demands.fine_places.empty() ? 0 : demands.fine_places.back().level;
-  const int* level = std::upper_bound(std::begin(kLevels), std::end(kLevels), before);
-  if (thin.empty() || level == std::end(kLevels)) return false;
-  for (const Vec3& place : thin) demands.fine_places.push_back({place, *level});
-  return true;
-}
+  /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is finer
+  /// than they are cannot always be mended, but those of a finer trace can.
+  void improve_until_no_angle_is_small(const SizeTargets& targets) {
+    constexpr int kLevels[] = {3, 5};  // one after the other
+    for (;;) {
+      std::vector<Vec3> thin = improve(trace(), targets, Guarding::kCloseSheets);
+      if (!is_good()) thin = improve(trace(), targets, Guarding::kEverywhere);
+      const int before = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
+      const int* level = std::upper_bound(std::begin(kLevels), std::end(kLevels), before);
+      if (!is_good() || thin.empty() || level == std::end(kLevels)) return;
+      for (const Vec3& place : thin) demands_.fine_places.push_back({place, *level});
+    }
+  }
+
+  /// The traced surface, with the certificate in the report.
+  /// @throws CannotMeshError
+  SurfaceMesh trace() {
+    take_mesh({});  // that of an attempt before makes room
+    MeshReport& report = result_.report;
+    TraceResult trace;
+    try {
+      trace = trace_surface(field_, demands_, threads_, [&](const std::string& stage) { watch_.finished(stage); });
+      report.certified = trace.uncertified.empty();
+      if (!report.certified) {
+        report.critical = critical_places(field_, trace, options_.isovalue);
+        if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
+        if (!options_.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options_.isovalue));
+        trace = trace_beside(atoms_, options_, demands_, threads_, watch_, report.isovalue_used);
+      }
+    } catch (const LatticeDegenerate& degenerate) {
+      throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+    }
+    give_back_memory();  // cells, roots and curves, most of what there is up to here
+    describe_trace(trace, options_.spacing, report);
+    if (trace.surface.mesh.triangles.empty()) {
+      throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue) +
+                            " everywhere; choose a smaller c");
+    }
+    return std::move(trace.surface);
+  }
+
+  /// Improves a traced mesh and has it judged. @return the corners of triangles with small angles that are left
+  std::vector<Vec3> improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
+    const std::int64_t chi = euler_number(traced.mesh);
+    const GaussianField used(atoms_, options_.decay, result_.report.isovalue_used);
+    ImprovedSurface improved =
+        improve_surface(std::move(traced), used, targets, guarding, threads_, options_.on_improving);
+    has_same_topology_ = euler_number(improved.surface.mesh) == chi;
+    take_mesh(std::move(improved.surface));
+    watch_.finished("improve");
+    result_.report.check = check_mesh(result_.mesh);
+    watch_.finished("verify");
+    return std::move(improved.thin);
+  }
+
+  void take_mesh(SurfaceMesh surface) {
+    result_.mesh = std::move(surface.mesh);
+    result_.normals = std::move(surface.normals);
+  }
+
+  void measure_distance() {
+    const TwoSidedDistance d = two_sided_distance(result_.mesh, atoms_, options_.decay, result_.report.isovalue_used);
+    result_.report.surface_distance = std::max(d.mesh_to_surface, d.surface_to_mesh);
+  }
+
+  /// Whether the last mesh may be given out, as far as topology and embedding go.
+  bool is_good() const { return has_same_topology_ && result_.report.check.fit_for_solver(); }
+
+  /// @throws InternalError, CannotMeshError
+  void require_promises() {
+    MeshReport& report = result_.report;
+    if (!is_good()) {
+      throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
+    }
+    if (options_.tolerance > 0.0 && *report.surface_distance > options_.tolerance) {
+      throw CannotMeshError("tolerance: asked for " + number_text(options_.tolerance) + " A, reached " +
+                            number_text(*report.surface_distance, 3) + " A; choose a smaller spacing too");
+    }
+    give_back_memory();  // what the judge took
+    report.vertex_distance_max =
+        vertex_distance_to_surface(result_.mesh, atoms_, options_.decay, report.isovalue_used).max;
+    if (!(report.vertex_distance_max <= kVertexTolerance)) {
+      throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
+                          " A away from the surface: please report this molecule");
+    }
+    watch_.finished("verify");
+  }
+
+  const std::vector<Atom>& atoms_;
+  const MeshOptions& options_;
+  const int threads_;
+  MeshResult result_;
+  Stopwatch watch_;
+  const GaussianField field_;
+  TraceDemands demands_;
+  bool has_same_topology_ = true;
+};
 
 }  // namespace
 
@@ -226,69 +314,8 @@ double spacing_for_density(double vertices_per_A2) { return std::sqrt(2.0 / (std
 
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options) {
   check_options(atoms, options);
-  const int threads = thread_count(options.threads);
-  const DefaultThreads judge_threads(threads);  // the judge knows nothing of options
-  MeshResult result;
-  MeshReport& report = result.report;
-  report.atoms = atoms.size();
-  report.options = options;
-  report.isovalue_used = options.isovalue;
-  Stopwatch watch(report.stages, options.on_stage_end);
-
-  const GaussianField field(atoms, options.decay, options.isovalue);
-  watch.finished("field");
-  TraceDemands demands{options.spacing, options.improve};
-  const auto trace = [&] {
-    take_mesh({}, result);  // that of an attempt before makes room
-    return certified_trace(field, atoms, demands, threads, watch, report);
-  };
-  const auto measure = [&] {
-    const TwoSidedDistance d = two_sided_distance(result.mesh, atoms, options.decay, report.isovalue_used);
-    report.surface_distance = std::max(d.mesh_to_surface, d.surface_to_mesh);
-  };
-  bool is_good = true;
-  if (!options.improve) {
-    take_mesh(trace(), result);
-    report.check = check_mesh(result.mesh);
-    is_good = report.check.fit_for_solver();
-    if (options.measure_distance) measure();
-  } else {
-    // Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another
-    // attempt.
-    constexpr int kMostAttempts = 4;
-    SizeTargets targets;
-    targets.spacing = options.spacing;
-    targets.tolerance = options.tolerance;
-    for (int attempt = 0; attempt < kMostAttempts;) {
-      SurfaceMesh traced = trace();
-      const GaussianField used(atoms, options.decay, report.isovalue_used);
-      auto thin = improve(std::move(traced), used, targets, Guarding::kCloseSheets, threads, watch, result);
-      if (!thin) thin = improve(trace(), used, targets, Guarding::kEverywhere, threads, watch, result);
-      is_good = thin.has_value();
-      if (!is_good) break;
-      if (ask_for_finer_trace(*thin, demands)) continue;
-      if (options.measure_distance || options.tolerance > 0.0) measure();
-      watch.finished("verify");
-      if (options.tolerance == 0.0 || *report.surface_distance <= options.tolerance) break;
-      ++attempt;
-      targets.tolerance *= 0.6;
-    }
-  }
-  if (!is_good) {
-    throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
-  }
-  if (options.tolerance > 0.0 && *report.surface_distance > options.tolerance) {
-    throw CannotMeshError("tolerance: asked for " + number_text(options.tolerance) + " A, reached " +
-                          number_text(*report.surface_distance, 3) + " A; choose a smaller spacing too");
-  }
-  give_back_memory();  // what the judge took
-  report.vertex_distance_max = vertex_distance_to_surface(result.mesh, atoms, options.decay, report.isovalue_used).max;
-  if (!(report.vertex_distance_max <= kVertexTolerance)) {
-    throw InternalError("a vertex is " + number_text(report.vertex_distance_max) +
-                        " A away from the surface: please report this molecule");
-  }
-  watch.finished("verify");
-  return result;
+  const DefaultThreads judge_threads(thread_count(options.threads));  // the judge knows nothing of options
+  return SurfaceMesher(atoms, options).run();
 }
 
 }  // namespace gaussmesh
