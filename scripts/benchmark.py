@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What whole runs of gaussmesh cost: CPU time and memory for each triangle, two threads against one.
 
-    scripts/benchmark.py data/fas2.pqr ache.pqr --program build/release/bin/gaussmesh --reference ./splat_mc \\
-        --output tests/bench/results
+    scripts/benchmark.py data/fas2.pqr ache.pqr --program build/release/bin/gaussmesh --output tests/bench/results \\
+        --reference ./other_mesher --reference-name "what it is"
 
 Every molecule is meshed at every spacing as traced (--raw) and by default, on one thread and on two, and by the reference
 program where there is one: any that is called `PROGRAM IN.pqr OUT.off -s SPACING -d D -c C` and uses one thread. Runs
@@ -146,7 +146,8 @@ def describe_run(options):
     return {"processor": f"{models[0]}, {os.cpu_count()} cores", "memory": f"{memory / 2**30:.1f} GiB",
             "system": platform.platform(), "compiler": compiler_of(options.program),
             "program": first_line([str(options.program), "--version"]), "date": datetime.date.today().isoformat(),
-            "surface": f"d = {options.decay:g}, c = {options.isovalue:g}", "turns": str(options.runs)}
+            "surface": f"d = {options.decay:g}, c = {options.isovalue:g}", "turns": str(options.runs),
+            **({"reference": options.reference_name or options.reference.name} if options.reference else {})}
 
 
 def write_table(rows, facts, folder):
@@ -191,6 +192,7 @@ def parse_arguments():
     parser.add_argument("molecules", nargs="+", type=pathlib.Path, help="PQR files, plain or gzipped")
     parser.add_argument("--program", type=pathlib.Path, default=pathlib.Path("build/release/bin/gaussmesh"))
     parser.add_argument("--reference", type=pathlib.Path, help="program to compare with")
+    parser.add_argument("--reference-name", help="what it is, for the table (default: its file name)")
     parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the table and the plot")
     parser.add_argument("--spacings", type=float, nargs="+", default=[0.5, 0.3], help="A (default: 0.5 0.3)")
     parser.add_argument("--runs", type=int, default=5, help="turns (default: 5)")

@@ -50,8 +50,10 @@ class Benchmark(CliTest):
 
     def test_compares_with_a_reference(self):
         self.write("reference", REFERENCE).chmod(0o755)
-        result = self.measure(self.molecule("methanol"), "--reference", "reference", "--two-thread-runs", 0)
+        result = self.measure(self.molecule("methanol"), "--reference", "reference", "--reference-name", "what it is",
+                              "--two-thread-runs", 0)
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("- reference: what it is\n", (self.folder / "results" / "benchmark.md").read_text())
         rows = self.rows()
         self.assertEqual([row["mesh"] for row in rows], ["reference", "raw", "default"])
         self.assertEqual(rows[0]["triangles"], "2")
