@@ -1,6 +1,7 @@
 #include "check_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "report_parts.h"
@@ -104,7 +105,10 @@ std::string distance_text(const CheckFindings& found) {
          line("  centroids        mean %.4g A, largest %.4g A\n", d.mean_centroid_distance, d.max_centroid_distance) +
          line("  and middles of edges: mean %.4g A, largest %.4g A; from the surface to the mesh %.4g A\n",
               both.mean_mesh_to_surface, both.mesh_to_surface, both.surface_to_mesh) +
-         line("  faces turned against the gradient  %zu\n", d.faces_against_gradient);
+         line("  faces turned against the gradient  %zu\n", d.faces_against_gradient) +
+         (std::isinf(both.mesh_to_surface) || std::isinf(d.max_vertex_distance)
+              ? "  inf: from some of these no way leads to the surface, as from a cavity that it has not\n"
+              : "");
 }
 
 std::string verdict_text(const CheckFindings& found) {

@@ -611,6 +611,14 @@ class CheckForSolvers(CliTest):
     def findings(self, *arguments, code=0):
         return json.loads(self.expect(code, "check", self.mesh, *arguments, "--json", "-").stdout)
 
+    def test_the_mesh_of_another_surface(self):
+        """The cavity of fas2 is not there at (0.4, 1.2)."""
+        self.expect(0, self.molecule("fas2"), "--spacing", 0.8, "-o", self.mesh)
+        other = self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("fas2"), "--d", 0.4, "--c", 1.2)
+        self.assertIn("inf: from some of these no way leads to the surface", other.stdout)
+        near = self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("fas2"), "--c", 1.69)
+        self.assertNotIn("inf", near.stdout)
+
     def test_charges_outside_are_named(self):
         atoms = self.molecule("dmso").read_text()
         self.assertEqual(self.findings(self.molecule("dmso"), "--d", 0.6, "--c", 1.7)["charges_outside"], [])
