@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -80,6 +81,9 @@ void handle_signals() {
 void let_waiting_threads_sleep(char** argv) {
 #ifdef __linux__
   if (::getenv("OMP_WAIT_POLICY") != nullptr || ::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  std::error_code error;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).filename().string();
+  if (error || program.starts_with("ld-")) return;  // the loader was told to run this: it would take other words
   if (::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) ::execv("/proc/self/exe", argv);  // where it fails they spin
 #else
   static_cast<void>(argv);
