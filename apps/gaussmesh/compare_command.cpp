@@ -1,5 +1,6 @@
 #include "compare_command.h"
 
+#include "output_options.h"
 #include "report_parts.h"
 #include "validators.h"
 
@@ -56,6 +57,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
 }
 
 int run_compare(const CompareCommand& command) {
+  require_other_files({command.first, command.second}, {command.json.value_or("")});
   const TriangleMesh first = read_mesh_argument(command.first).mesh;
   const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);

@@ -125,12 +125,9 @@ std::string config_message(const CLI::App& program, const std::string& what) {
     ++number;
     if (line.find(key) != std::string::npos) found = number;
   }
-  std::vector<std::string> names;
-  for (const CLI::Option* option : program.get_options()) {
-    for (const std::string& name_of_option : option->get_lnames()) names.push_back(name_of_option);
-  }
+  const std::string option = nearest_to(program, "--" + key);
   return name + ":" + (found > 0 ? std::to_string(found) + ":" : "") + " expected an option of gaussmesh, got '" + key +
-         "'; did you mean '" + gaussmesh::nearest_name(key, names) + "'?";
+         "'; did you mean '" + option.substr(option.find_first_not_of('-')) + "'?";
 }
 
 /// Says what is wrong with the command line, and what may have been meant.

@@ -30,17 +30,6 @@ void require_sense(const MeshCommand& command) {
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
 }
 
-/// Finds out before the work what cannot be written, and what must not be.
-void require_separate_files(const MeshCommand& command) {
-  const WriteOptions writing = writing_options(command.writing, command.no_header);
-  std::vector<std::string> written{command.report};
-  for (const std::string& output : command.outputs) {
-    for (const std::filesystem::path& file : files_of(output, writing)) written.push_back(file.string());
-  }
-  require_other_files({command.molecule}, written);
-  require_writable_outputs(command.outputs, command.report, writing);
-}
-
 /// Where temporary files for an output belong.
 std::filesystem::path folder_of(const std::filesystem::path& output) {
   if (output == "-") return std::filesystem::temp_directory_path();
@@ -219,7 +208,8 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 
 int run_mesh(const MeshCommand& command) {
   require_sense(command);
-  require_separate_files(command);
+  require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header),
+                           {command.molecule});
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
   const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);

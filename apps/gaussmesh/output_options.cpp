@@ -22,9 +22,10 @@ WriteOptions writing_options(WriteOptions writing, bool no_header) {
 }
 
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
-                              const WriteOptions& writing) {
+                              const WriteOptions& writing, const std::vector<std::string>& inputs) {
   std::set<std::filesystem::path> seen;
   const auto require_new = [&](const std::filesystem::path& file) {
+    require_other_files(inputs, {file.string()});
     std::error_code error;
     const std::filesystem::path place =
         file == "-" ? file : std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);

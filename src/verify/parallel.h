@@ -1,5 +1,6 @@
 // Loops over independent slots, on as many threads as OpenMP takes where nothing is said: what is thrown in a parallel
-// region must not leave it, and is thrown again behind it.
+// region must not leave it, and is thrown again behind it. The judge has loops of its own, since it includes nothing of
+// the stages that it judges.
 #pragma once
 
 #include <algorithm>

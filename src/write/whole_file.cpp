@@ -75,8 +75,8 @@ WholeFile::WholeFile(const fs::path& path) : path_(path), target_(end_of_links(p
 }
 
 void WholeFile::require_writable(const fs::path& path) {
-  const bool is_device = path != "-" && is_written_in_place(path);
-  if (!is_device || fs::is_directory(path)) {
+  std::error_code error;  // the constructor tells what is wrong
+  if (!fs::is_fifo(path, error)) {
     const WholeFile probe(path);
   } else if (::access(path.c_str(), W_OK) != 0) {
     throw InputError(path.string() + ": the output file cannot be opened: " + std::strerror(errno));

@@ -432,6 +432,8 @@ class Running(CliTest):
         for command in [["mol.pqr", "-o", "mol.pqr", "--format", "off"], ["mol.pqr", "-o", "link.off"],
                         ["mol.pqr", "-o", "new.off", "--report", "./mol.pqr"],
                         ["check", "out.off", "mol.pqr", "--json", "out.off"],
+                        ["compare", "out.off", "out.off", "--json", "./out.off"],
+                        ["convert", "out.off", "mol.pqr", "--format", "off", "--molecule", "mol.pqr"],
                         ["measure", "out.off", "mol.pqr", "--atom-areas", "mol.pqr"]]:
             self.assertIn("which is read", self.expect(WRONG_USE, *command).stderr)
         self.assertEqual((molecule.read_bytes(), self.mesh.read_bytes()), (text, mesh))
