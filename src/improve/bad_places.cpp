@@ -99,11 +99,14 @@ std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads
   return thin;
 }
 
-std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
+std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_around, double most) {
   std::vector<Box> boxes;
-  BoxGrid grid(2.0 * half_edge);
-  for (const Vec3& place : places) {
-    const Box box = widened({place, place}, half_edge);
+  const auto half_edge = [&](const BadPlace& place) { return std::min(sizes_around * place.size, most); };
+  double largest = 0.0;
+  for (const BadPlace& place : places) largest = std::max(largest, half_edge(place));
+  BoxGrid grid(2.0 * largest);
+  for (const BadPlace& place : places) {
+    const Box box = widened({place.at, place.at}, half_edge(place));
     bool is_free = true;
     BoxGrid::Reader(grid).visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
     if (!is_free) continue;
@@ -111,9 +114,9 @@ std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge) {
     boxes.push_back(box);
   }
   BoxGrid::Reader reader(grid);
-  std::erase_if(places, [&](const Vec3& place) {
+  std::erase_if(places, [&](const BadPlace& place) {
     bool is_taken = false;
-    reader.visit({place, place}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place); });
+    reader.visit({place.at, place.at}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place.at); });
     return is_taken;
   });
   return boxes;

@@ -19,7 +19,15 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
 /// Corners of triangles with an angle below 30 degrees, in rising order. Cost: one pass over the triangles.
 std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads);
 
+/// Where the mesh is to be worked on, and how large triangles are to be there.
+struct BadPlace {
+  Vec3 at;      ///< A
+  double size;  ///< wanted edge (A)
+};
+
 /// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
-std::vector<Box> take_boxes_round(std::vector<Vec3>& places, double half_edge);
+/// @param sizes_around  from a place to the faces of its cube, in wanted edges there
+/// @param most          A, and no farther than this
+std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_around, double most);
 
 }  // namespace gaussmesh

@@ -21,6 +21,11 @@ constexpr double kCollapseFactor = 0.65;
 /// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
 constexpr double kBlockEdge = 32.0;
 
+/// Where the surface is much finer than the spacing blocks are smaller, to have as few triangles: no more than so many
+/// mean edges, but wide enough for triangles that are as large as the spacing.
+constexpr double kBlockEdgeInEdges = 96.0;
+constexpr double kLeastBlockEdge = 6.0;  ///< spacings
+
 /// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this
 /// factor, so that the mean edge is what was asked for.
 constexpr double kLargestFactor = 1.25;
@@ -41,8 +46,11 @@ struct Sweep {
 constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
-/// Follow them: in boxes round what is bad, as often as it takes.
-constexpr double kHalfEdgeOfBoxes = 5.0;  ///< spacings
+/// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
+/// is tried again in larger ones.
+constexpr double kSizesInHalfABox = 5.0;
+constexpr int kSweepsPerDoubling = 3;
+constexpr double kMostHalfEdge = 5.0;  ///< spacings
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -76,9 +84,14 @@ double mean_edge(const WholeMesh& mesh, int threads) {
   return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-std::vector<Vec3> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
-  std::vector<Vec3> places;
-  for (const std::uint32_t v : vertices) places.push_back(mesh.at[v]);
+/// Edge (A) of blocks for a mesh as it was traced.
+double block_edge(double spacing, double mean_edge) {
+  return std::clamp(kBlockEdgeInEdges * mean_edge, kLeastBlockEdge * spacing, kBlockEdge * spacing);
+}
+
+std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<BadPlace> places;
+  for (const std::uint32_t v : vertices) places.push_back({mesh.at[v], double(mesh.size[v])});
   return places;
 }
 
@@ -140,8 +153,8 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
 
 /// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
 /// @return places that are still bad
-std::vector<Vec3> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
-                             Guarding guarding) {
+std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
+                                 Guarding guarding) {
   BlockField field(whole_field, mesh.box);
   for (int round = 0;; ++round) {
     const std::vector<std::uint32_t> sharp = find_sharp_edges(mesh);
@@ -164,7 +177,7 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
                                 Guarding guarding, int threads,
                                 const std::function<void(double share_done)>& on_progress) {
   WholeMesh mesh = start_with(std::move(traced), targets.spacing);
-  const double edge = kBlockEdge * targets.spacing;
+  const double edge = block_edge(targets.spacing, mean_edge(mesh, threads));
   SizeTargets now = targets;
   now.largest = targets.spacing;
   double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
@@ -193,22 +206,24 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }
-  const double half_edge = kHalfEdgeOfBoxes * targets.spacing;
-  std::vector<Vec3> bad;  // places; where none is known the whole mesh is looked at
+  std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
   bool is_mended = false;
   for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
     if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
     is_mended = bad.empty();
     if (is_mended) break;
-    const std::vector<Box> boxes = take_boxes_round(bad, half_edge);
-    std::vector<std::vector<Vec3>> left(boxes.size());
-    mesh = run(MeshBlocks(std::move(mesh), boxes, 2.0 * half_edge, threads), kEffortInBoxes,
+    const std::vector<Box> boxes =
+        take_boxes_round(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling), kMostHalfEdge * targets.spacing);
+    std::vector<std::vector<BadPlace>> left(boxes.size());
+    mesh = run(MeshBlocks(std::move(mesh), boxes, threads), kEffortInBoxes,
                [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field, now, guarding); });
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
   std::vector<Vec3> thin;
-  if (!is_mended) thin = places_of(mesh, find_thin_vertices(mesh, threads));
+  if (!is_mended) {
+    for (const std::uint32_t v : find_thin_vertices(mesh, threads)) thin.push_back(mesh.at[v]);
+  }
   return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(thin)};
 }
 

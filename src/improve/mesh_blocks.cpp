@@ -99,11 +99,13 @@ MeshBlocks::MeshBlocks(WholeMesh whole, double edge, const Vec3& shift, int thre
   list_reaching(grid, between_, threads);
 }
 
-MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, double most, int threads)
+MeshBlocks::MeshBlocks(WholeMesh whole, std::vector<Box> boxes, int threads)
     : mesh_(std::move(whole)), boxes_(std::move(boxes)), block_of_(mesh_.at.size()) {
   // A triangle that reaches into a box has its corners within its own extent of it.
   const double extent = longest_extent(mesh_, threads);
-  BoxGrid near(most);
+  double widest = extent;
+  for (const Box& box : boxes_) widest = std::max(widest, box.hi[0] - box.lo[0]);
+  BoxGrid near(widest);
   for (std::uint32_t b = 0; b < boxes_.size(); ++b) near.add(widened(boxes_[b], extent), b);
   std::vector<std::uint8_t> is_near(mesh_.at.size(), 0);
   parallel_for_chunks(mesh_.at.size(), kMembersAtOnce, threads, [&](std::size_t, std::size_t first, std::size_t last) {

@@ -28,8 +28,8 @@ class MeshBlocks {
   MeshBlocks(WholeMesh mesh, double edge, const Vec3& shift, int threads);
 
   /// The blocks are given: what is outside of all stays as it is.
-  /// @param boxes  without common points; none is larger than `most` (A) along any axis
-  MeshBlocks(WholeMesh mesh, std::vector<Box> boxes, double most, int threads);
+  /// @param boxes  without common points
+  MeshBlocks(WholeMesh mesh, std::vector<Box> boxes, int threads);
 
   std::size_t size() const { return boxes_.size(); }
 

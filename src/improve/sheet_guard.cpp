@@ -22,10 +22,8 @@ void mark_close_sheets(BlockMesh& mesh) {
 
 }  // namespace
 
-SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : lo_(mesh.box.lo), guarding_(guarding) {
-  double width = 0.0;
-  for (int k = 0; k < 3; ++k) width = std::max(width, mesh.box.hi[k] - mesh.box.lo[k]);
-  cells_per_angstrom_ = static_cast<float>(kMostCells / width);
+SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : guarding_(guarding) {
+  lay_grid(mesh);
   if (guarding == Guarding::kEverywhere) {
     std::fill(mesh.is_guarded.begin(), mesh.is_guarded.end(), std::uint8_t{1});
   } else {
@@ -37,6 +35,25 @@ SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : lo_(mesh.box.lo), g
   for (std::uint32_t i = 0; i < mesh.fixed.size(); ++i) {
     if (is_guarded(mesh, mesh.fixed[i])) enter(mesh, mesh.fixed[i], kFirstFixed + i);
   }
+}
+
+/// Round what of the mesh is in the block, with cells of about the size of the mean triangle where the surface crosses
+/// it once.
+void SheetGuard::lay_grid(const BlockMesh& mesh) {
+  constexpr int kLeastCells = 4, kMostCells = 48;
+  Vec3 lo = mesh.box.hi, hi = mesh.box.lo;
+  for (const Vec3& p : mesh.at) {
+    if (!mesh.contains(p)) continue;
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], p[k]);
+      hi[k] = std::max(hi[k], p[k]);
+    }
+  }
+  const double width = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+  const double across = std::sqrt(0.5 * mesh.connectivity.triangles());
+  lo_ = lo;
+  cells_ = static_cast<int>(std::clamp(across, double(kLeastCells), double(kMostCells)));
+  cells_per_angstrom_ = width > 0.0 ? static_cast<float>(cells_ / width) : 1.0f;
 }
 
 bool SheetGuard::pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t) {
@@ -52,7 +69,7 @@ void SheetGuard::insert(const BlockMesh& mesh, std::uint32_t triangle) {
 }
 
 void SheetGuard::enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle) {
-  if (head_.empty()) head_.assign(kMostCells * kMostCells * kMostCells, -1);
+  if (head_.empty()) head_.assign(static_cast<std::size_t>(cells_ * cells_ * cells_), -1);
   const SmallBox box = box_of(mesh, corners);
   const Normal normal = mean_normal(mesh, corners);
   visit_cells(box, [&](std::size_t cell) {

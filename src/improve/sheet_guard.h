@@ -56,9 +56,8 @@ class SheetGuard {
 
  private:
   static constexpr std::uint32_t kFirstFixed = 0x80000000u;
-  static constexpr int kMostCells = 48;  ///< along an axis
 
-  /// A box that holds a triangle, by floats rounded outwards, from a corner of the block.
+  /// A box that holds a triangle, by floats rounded outwards, from a corner of the grid.
   struct SmallBox {
     std::array<float, 3> lo, hi;
 
@@ -75,6 +74,7 @@ class SheetGuard {
     Normal normal;  ///< mean of the field's at the corners, not of unit length
   };
 
+  void lay_grid(const BlockMesh& mesh);
   void enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle);
 
   static Normal mean_normal(const BlockMesh& mesh, const Triangle& t) {
@@ -114,18 +114,19 @@ class SheetGuard {
     for (int i = lo[0]; i <= hi[0]; ++i) {
       for (int j = lo[1]; j <= hi[1]; ++j) {
         for (int k = lo[2]; k <= hi[2]; ++k) {
-          if (visit(static_cast<std::size_t>((i * kMostCells + j) * kMostCells + k))) return true;
+          if (visit(static_cast<std::size_t>((i * cells_ + j) * cells_ + k))) return true;
         }
       }
     }
     return false;
   }
 
-  int index_of(float x) const { return slab_of(x * cells_per_angstrom_, kMostCells); }
+  int index_of(float x) const { return slab_of(x * cells_per_angstrom_, cells_); }
 
-  Vec3 lo_;
-  float cells_per_angstrom_;
   Guarding guarding_;
+  Vec3 lo_;    ///< corner of the grid; what lies outside of it is in its outermost cells
+  int cells_;  ///< along an axis
+  float cells_per_angstrom_;
   std::vector<std::int32_t> head_;  ///< by cell: its first node; made when there is one
   std::vector<Node> nodes_;
 };

@@ -74,23 +74,20 @@ TEST_CASE("sharp edges between well-shaped triangles are bad places") {
 TEST_CASE("boxes round bad vertices have no common points, and none is far from all of them") {
   const WholeMesh mesh = whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)), 0.8f);
   const std::vector<std::uint32_t> bad = find_bad_vertices(mesh, 1);
-  const double half_edge = 1.0;
-  std::vector<Vec3> places;
-  for (const std::uint32_t v : bad) places.push_back(mesh.at[v]);
-  const std::vector<Box> boxes = take_boxes_round(places, half_edge);
-  for (const Vec3& place : places) {
-    CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_in(box, place); }));
+  const double sizes_around = 4.0, most = 1.0;
+  const auto size_of = [](std::uint32_t v) { return v % 2 == 0 ? 0.1 : 0.5; };
+  std::vector<BadPlace> places;
+  for (const std::uint32_t v : bad) places.push_back({mesh.at[v], size_of(v)});
+  const std::vector<Box> boxes = take_boxes_round(places, sizes_around, most);
+  for (const BadPlace& place : places) {
+    CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_in(box, place.at); }));
   }
   REQUIRE(boxes.size() > 3);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes_meet(boxes[i], boxes[j]));
   }
   for (const std::uint32_t v : bad) {
-    Box around;
-    for (int k = 0; k < 3; ++k) {
-      around.lo[k] = mesh.at[v][k] - half_edge;
-      around.hi[k] = mesh.at[v][k] + half_edge;
-    }
+    const Box around = widened({mesh.at[v], mesh.at[v]}, std::min(sizes_around * size_of(v), most));
     CHECK(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return boxes_meet(around, box); }));
   }
 }

@@ -45,16 +45,12 @@ TEST_CASE("boxes cut out of a mesh and put back leave it as it was, and take wha
   const WholeMesh mesh = ring_mesh();
   std::vector<Box> boxes;
   for (const std::size_t v : {std::size_t{0}, mesh.at.size() / 3, 2 * mesh.at.size() / 3}) {
-    Box box;
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] = mesh.at[v][k] - 1.0;
-      box.hi[k] = mesh.at[v][k] + 1.0;
-    }
+    const Box box = widened({mesh.at[v], mesh.at[v]}, boxes.empty() ? 1.0 : 0.5);
     const auto meets = [&](const Box& other) { return boxes_meet(box, other); };
     if (std::none_of(boxes.begin(), boxes.end(), meets)) boxes.push_back(box);
   }
   REQUIRE(boxes.size() > 1);
-  MeshBlocks blocks(mesh, boxes, 2.0, 2);
+  MeshBlocks blocks(mesh, boxes, 2);
   REQUIRE(blocks.size() == boxes.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     BlockMesh block = blocks.extract(b);
