@@ -3,7 +3,7 @@
 
 The stages under src/ stand in one line, each knowing only those before it:
 
-    core < atoms < field < boxes < roots < trace < patch < improve < read < write < pipeline
+    core < text < atoms < field < boxes < roots < trace < patch < improve < read < write < pipeline
 
 `verify` is a judge and stands outside that line: it sees the public headers and itself, and only `write` and
 `pipeline`, which come after it, may call it. The programs under apps/ see the public headers and the files of their
@@ -17,7 +17,7 @@ import re
 import sys
 import tempfile
 
-STAGES = ["core", "atoms", "field", "boxes", "roots", "trace", "patch", "improve", "read", "write", "pipeline"]
+STAGES = ["core", "text", "atoms", "field", "boxes", "roots", "trace", "patch", "improve", "read", "write", "pipeline"]
 JUDGE = "verify"
 JUDGE_CALLERS = {"write", "pipeline"}
 PUBLIC = "gaussmesh"

@@ -16,13 +16,13 @@ struct Defect {
   std::size_t count;
 };
 
-/// Components that are turned the wrong way: outsides (odd = 0), or cavities (odd = 1). None where a surface is not
-/// closed: the cavities in it would be taken for outsides.
-std::size_t count_inverted(const MeshCheck& mesh, std::size_t odd) {
+/// Outsides or cavities that are turned the wrong way. None where a surface is not closed: the cavities in it would be
+/// taken for outsides.
+std::size_t count_inverted(const MeshCheck& mesh, bool cavities) {
   if (!all_are_closed(mesh)) return 0;
   return static_cast<std::size_t>(
       std::count_if(mesh.components.begin(), mesh.components.end(),
-                    [&](const MeshComponent& c) { return c.inverted && c.depth % 2 == odd; }));
+                    [&](const MeshComponent& c) { return c.inverted && c.is_cavity() == cavities; }));
 }
 
 std::vector<Defect> defects_of(const CheckFindings& found) {
@@ -38,8 +38,8 @@ std::vector<Defect> defects_of(const CheckFindings& found) {
       {"vertices at the place of another", "duplicate_vertices", mesh.duplicate_vertices},
       {"triangles of zero area", "degenerate_triangles", mesh.degenerate_triangles},
       {"pairs of triangles that cross or touch", "intersecting_pairs", mesh.intersecting_pairs},
-      {"outer surfaces whose faces turn inwards", "inward_surfaces", count_inverted(mesh, 0)},
-      {"cavities whose faces turn outwards", "outward_cavities", count_inverted(mesh, 1)}};
+      {"outer surfaces whose faces turn inwards", "inward_surfaces", count_inverted(mesh, false)},
+      {"cavities whose faces turn outwards", "outward_cavities", count_inverted(mesh, true)}};
   if (found.charges_outside)
     defects.push_back({"charges outside the mesh", "charges_outside", found.charges_outside->size()});
   if (found.near && found.separation_is_required)
@@ -69,7 +69,7 @@ std::string shape_text(const MeshCheck& mesh) {
   return "Shape of the triangles\n" +
          line("  angles                         %.4g to %.4g deg\n", mesh.min_angle_deg, mesh.max_angle_deg) +
          line("  smallest angle, mean           %.4g deg, below 30 deg in %.4g %%\n", mesh.mean_min_angle_deg,
-              100 * mesh.under_30_deg) +
+              100 * mesh.fraction_under_30_deg) +
          line("  shortest / longest edge, mean  %.4g\n", mesh.mean_edge_ratio) +
          line("  edges                          %.4g to %.4g A, mean %.4g A\n", mesh.min_edge, mesh.max_edge,
               mesh.mean_edge);
@@ -124,13 +124,13 @@ Json quality_json(const MeshCheck& mesh) {
   return {{"min_angle_deg", mesh.min_angle_deg},
           {"max_angle_deg", mesh.max_angle_deg},
           {"mean_min_angle_deg", mesh.mean_min_angle_deg},
-          {"fraction_under_30_deg", mesh.under_30_deg},
+          {"fraction_under_30_deg", mesh.fraction_under_30_deg},
           {"mean_edge_ratio", mesh.mean_edge_ratio},
           {"min_edge_A", mesh.min_edge},
           {"mean_edge_A", mesh.mean_edge},
           {"max_edge_A", mesh.max_edge},
-          {"triangles_by_edge_ratio", mesh.ratio_histogram},
-          {"angles_by_10_deg", mesh.angle_histogram}};
+          {"edge_ratio_histogram_by_0.05", mesh.ratio_histogram},
+          {"angle_histogram_by_10_deg", mesh.angle_histogram}};
 }
 
 Json near_json(const CheckFindings& found) {

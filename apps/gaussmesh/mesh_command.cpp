@@ -36,6 +36,29 @@ std::filesystem::path folder_of(const std::filesystem::path& output) {
   return output.has_parent_path() ? output.parent_path() : ".";
 }
 
+/// The name of the file for one of several surfaces: from out.off to out_1.off.
+std::string numbered(const std::string& output, std::size_t number) {
+  const std::filesystem::path path = output;
+  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
+      .string();
+}
+
+/// The names of all meshes where there are so many surfaces.
+std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t surfaces) {
+  if (command.cavities != "separate") return command.outputs;
+  std::vector<std::string> names;
+  for (std::size_t number = 1; number <= surfaces; ++number) {
+    for (const std::string& output : command.outputs) names.push_back(numbered(output, number));
+  }
+  return names;
+}
+
+/// Finds out what cannot be written where there are so many surfaces.
+void require_writable_files(const MeshCommand& command, std::size_t surfaces) {
+  require_writable_outputs(names_of_meshes(command, surfaces), command.report,
+                           writing_options(command.writing, command.no_header), {command.molecule});
+}
+
 /// What is written.
 struct Product {
   MeshFile surface;
@@ -71,13 +94,6 @@ VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>&
     break;
   }
   return data;
-}
-
-/// The name of the file for one of several surfaces: from out.off to out_1.off.
-std::string numbered(const std::string& output, std::size_t number) {
-  const std::filesystem::path path = output;
-  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
-      .string();
 }
 
 /// Writes all meshes and the report, all of them or none; returns what the first output became.
@@ -208,8 +224,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 
 int run_mesh(const MeshCommand& command) {
   require_sense(command);
-  require_writable_outputs(command.outputs, command.report, writing_options(command.writing, command.no_header),
-                           {command.molecule});
+  require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
   const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);
@@ -227,6 +242,7 @@ int run_mesh(const MeshCommand& command) {
   VertexData data = find_vertex_data(command, atoms, result);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
+  require_writable_files(command, product.report.check.components.size());
   const std::string first = write_all(command, product);
   if (command.quiet) return 0;
   std::ostream& out = is_standard_output_taken(command) ? std::cerr : std::cout;

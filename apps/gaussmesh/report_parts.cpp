@@ -12,7 +12,7 @@ namespace {
 
 const char* kind_of(const MeshComponent& component) {
   if (!component.closed) return "not closed";
-  return component.depth % 2 == 0 ? "outside" : "cavity";
+  return component.is_cavity() ? "cavity" : "outside";
 }
 
 }  // namespace

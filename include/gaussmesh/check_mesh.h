@@ -26,9 +26,12 @@ struct MeshComponent {
   double area = 0.0;       ///< A^2, Eq. (3) of [LCL15]
   double volume = 0.0;     ///< A^3, signed: negative for a cavity, Eq. (4) of [LCL15]
   bool closed = false;     ///< every edge in two triangles that turn the same way; if not, what is below is unset
-  std::size_t depth = 0;   ///< number of other closed components that it lies inside of: odd for a cavity
+  std::size_t depth = 0;   ///< number of other closed components that it lies inside of
   bool inverted = false;   ///< volume not positive at even depth, or not negative at odd depth; decided exactly
   std::optional<std::uint32_t> parent;  ///< the innermost component that it lies inside of; none at depth 0
+
+  /// Whether it bounds a hole in what others enclose: what lies inside of it is outside of the molecule.
+  bool is_cavity() const { return depth % 2 == 1; }
 };
 
 /// Stands for the component of a triangle that could not be judged.
@@ -60,14 +63,14 @@ struct MeshCheck {
   double volume = 0.0;         ///< A^3, cavities subtracted
   double min_angle_deg = 0.0;  ///< smallest angle of any triangle
   double max_angle_deg = 0.0;
-  double mean_min_angle_deg = 0.0;   ///< mean over the triangles of their smallest angle
-  double mean_edge_ratio = 0.0;      ///< mean of shortest / longest edge, Fig. 7 of [LCL15]
-  double min_edge = 0.0;             ///< A
-  double mean_edge = 0.0;            ///< A, mean over the triangles' edges
-  double max_edge = 0.0;             ///< A
-  double under_30_deg = 0.0;         ///< fraction of the triangles whose smallest angle is below 30 degrees
-  RatioHistogram ratio_histogram{};  ///< triangles by shortest / longest edge, Fig. 7 of [LCL15]
-  AngleHistogram angle_histogram{};  ///< all angles of all triangles, Fig. 8 of [LCL15]
+  double mean_min_angle_deg = 0.0;     ///< mean over the triangles of their smallest angle
+  double mean_edge_ratio = 0.0;        ///< mean of shortest / longest edge, Fig. 7 of [LCL15]
+  double min_edge = 0.0;               ///< A
+  double mean_edge = 0.0;              ///< A, mean over the triangles' edges
+  double max_edge = 0.0;               ///< A
+  double fraction_under_30_deg = 0.0;  ///< of the triangles: those whose smallest angle is below 30 degrees
+  RatioHistogram ratio_histogram{};    ///< triangles by shortest / longest edge, Fig. 7 of [LCL15]
+  AngleHistogram angle_histogram{};    ///< all angles of all triangles, Fig. 8 of [LCL15]
 
   /// Closed, oriented, embedded, turned the right way: what a boundary-element solver needs.
   ///

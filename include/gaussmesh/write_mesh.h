@@ -58,7 +58,8 @@ class OutputFiles {
   /// Makes a file of a text. @throws InputError if it cannot be written
   void add_text(std::string_view text, const std::filesystem::path& path);
 
-  /// @throws InputError if a file cannot be put in its place
+  /// @throws InputError if a file cannot be put in its place: then all are as they were, but for what was replaced
+  ///                    where the file system knows no hard links
   void commit();
 
  private:

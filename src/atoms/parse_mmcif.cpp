@@ -4,8 +4,8 @@
 
 #include "atoms/cif_table.h"
 #include "atoms/structure_builder.h"
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {

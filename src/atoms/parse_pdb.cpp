@@ -3,8 +3,8 @@
 // https://www.wwpdb.org/documentation/file-format-content/format33/sect9.html#ATOM
 
 #include "atoms/structure_builder.h"
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {

@@ -1,9 +1,9 @@
 // The PQR reader: from line to line, and what is left out on the way.
 //
 // Which fields of a record are its numbers is pqr_record.h; what the whole file gives away is pqr_checks.h.
+#include "atoms/atom_fields.h"
 #include "atoms/pqr_checks.h"
 #include "atoms/pqr_record.h"
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
 
 namespace gaussmesh {

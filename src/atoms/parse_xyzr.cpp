@@ -1,6 +1,6 @@
 #include <charconv>
 
-#include "atoms/text_lines.h"
+#include "atoms/atom_fields.h"
 #include "gaussmesh/error.h"
 
 namespace gaussmesh {

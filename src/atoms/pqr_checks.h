@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "atoms/atom_fields.h"
 #include "atoms/pqr_record.h"
-#include "atoms/text_lines.h"
 
 namespace gaussmesh {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "atoms/text_lines.h"
+#include "atoms/atom_fields.h"
 
 namespace gaussmesh {
 

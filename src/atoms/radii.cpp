@@ -2,10 +2,10 @@
 
 #include "atoms/radii.h"
 
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
 #include "gaussmesh/read_atoms.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "atoms/radii.h"
-#include "atoms/read_file.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
+#include "text/read_file.h"
 
 namespace gaussmesh {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {

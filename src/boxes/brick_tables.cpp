@@ -16,10 +16,6 @@ constexpr int kPlanes = BrickTables::kPlanes;
 /// Atoms that are summed up at once: their tables stay in the cache.
 constexpr std::size_t kBlock = 256;
 
-/// Relative error of a sum of products of three exponentials and a weight, each with a few roundings, over up to 1e6
-/// atoms.
-constexpr double kSumError = 1e-9;
-
 /// Sums are taken to be at least this: weights up to e^600 and three factors down to e^-700 each lose 1e-30 at most.
 constexpr double kLeastSum = 1e-20;
 constexpr double kLargestExponent = 600.0;
@@ -126,8 +122,8 @@ void BrickTables::build(const NearAtoms& atoms, double decay, const Planes& plan
     largest_coordinate = std::max({largest_coordinate, std::abs(planes[k].front()), std::abs(planes[k].back())});
     edge = std::max(edge, planes[k][1] - planes[k][0]);
   }
-  const double error = 2.0 * kSumError + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) + 1e-12 +
-                       1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
+  const double error = 2.0 * sum_error(atoms.size()) + kVectorLogError + 1e-14 * (atoms.w_size + decay * largest_sq) +
+                       1e-12 + 1e-15 * decay * std::sqrt(largest_sq) * largest_coordinate;
   for (int k = 0; k < 3; ++k) origin_[k] = planes[k][1];
   edge_ = edge;
   square_ = decay * edge * edge * (1.0 + 1e-9);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/quad.h"
@@ -11,6 +12,10 @@ namespace gaussmesh {
 /// Relative error of vector_exp(), with room to spare: argument reduction leaves |r| <= ln(2)/2 to within 2 ulp, the
 /// Taylor remainder of degree 12 is 1.7e-16, and Horner's scheme rounds 24 times on terms that fall by r/n.
 inline constexpr double kVectorExpError = 8e-16;
+
+/// Bound of the relative error of a sum of n positive terms: of products of a few exponentials, each good to 1e-10, and
+/// of n additions.
+inline constexpr double sum_error(std::size_t n) { return 1e-9 + 1.2e-16 * static_cast<double>(n); }
 
 /// exp(x), for x clamped to [-700, 700]. Branch-free, so that loops over it are vectorised.
 inline double vector_exp(double x) {

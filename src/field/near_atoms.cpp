@@ -136,6 +136,7 @@ void NearAtoms::take(const WeightedCentres& atoms, std::vector<std::uint32_t>& c
 void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, double decay) {
   // The slope 2 d r exp(w - d r^2) falls with r beyond 1 / sqrt(2 d): at least that far is assumed in front of it.
   const double exponent = w_max - decay * distance_sq + exponent_slack(w_max, decay * distance_sq);
+  // 1e-9 is more than the rounding of 4e6 additions to the tail: there are fewer nodes than that.
   const double value = count * (std::exp(exponent) * (1.0 + 1e-9) + 1e-300);
   const double r = std::sqrt(std::max(distance_sq, 0.5 / decay));
   tail += value;
@@ -155,7 +156,7 @@ void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
 
 void NearAtoms::add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay) {
   const LeftOutSums sums = sum_left_out(exponent, n, cut, largest_w);
-  const double factor = std::exp(exponents_slack(largest_w, -kLeastExponent)) * (1.0 + 1e-9);
+  const double factor = std::exp(exponents_slack(largest_w, -kLeastExponent)) * (1.0 + sum_error(n));
   tail += factor * sums.weight;
   tail_slope += factor * 2.0 * std::sqrt(decay * sums.weight) * std::sqrt(sums.weight_times_distance);
 }
@@ -190,7 +191,7 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay) {
   const DistanceSums sums = sums_by_distance(atoms.x.data(), atoms.y.data(), atoms.z.data(), atoms.w.data(),
                                              atoms.size(), decay, box.lo.data(), box.hi.data());
-  return {sums.largest * (1.0 + 1e-9) + atoms.tail, sums.least_exponent > 0.0};
+  return {sums.largest * (1.0 + sum_error(atoms.size())) + atoms.tail, sums.least_exponent > 0.0};
 }
 
 }  // namespace gaussmesh

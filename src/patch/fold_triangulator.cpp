@@ -87,17 +87,17 @@ bool FoldTriangulator::assign_loops(const FoldCell& cell, std::span<const Loop> 
   loops_of_.assign(cell.components.size(), {});
   for (const Loop& loop : loops) {
     Polygon polygon;
-    int owner = -1;
+    std::optional<std::size_t> owner;
     for (const LoopVertex& v : loop) {
       polygon.push_back(static_cast<int>(vertices_.size()));
       vertices_.push_back(v);
       for (std::size_t c = 0; c < cell.components.size(); ++c) {
         const auto& roots = cell.components[c].roots;
-        if (std::find(roots.begin(), roots.end(), v.point.position) != roots.end()) owner = static_cast<int>(c);
+        if (std::find(roots.begin(), roots.end(), v.point.position) != roots.end()) owner = c;
       }
     }
-    if (owner < 0) return false;
-    loops_of_[owner].push_back(std::move(polygon));
+    if (!owner) return false;
+    loops_of_[*owner].push_back(std::move(polygon));
   }
   for (std::size_t c = 0; c < cell.components.size(); ++c) {
     if (static_cast<int>(loops_of_[c].size()) != cell.components[c].boundary_loops) return false;
@@ -108,7 +108,7 @@ bool FoldTriangulator::assign_loops(const FoldCell& cell, std::span<const Loop> 
 bool FoldTriangulator::triangulate_component(const FoldComponent& component, std::vector<Polygon> polygons) {
   const std::vector<Polygon> loops = polygons;
   Arcs arcs;
-  if (component.fold_axis >= 0 && !cut_along_folds(component.fold_axis, polygons, arcs)) return false;
+  if (component.fold_axis && !cut_along_folds(*component.fold_axis, polygons, arcs)) return false;
   // Discs glued along arcs: connected, and with this Euler number and these loops it is the surface that was proven.
   if (static_cast<int>(polygons.size()) - static_cast<int>(arcs.size()) != component.chi) return false;
   if (!are_connected(loops, arcs)) return false;
@@ -167,7 +167,7 @@ std::optional<FoldTriangulator::Polygon> FoldTriangulator::fold_arc(int axis, in
   const auto curve = follow_fold(atoms_, field_.decay(), box_, to_angstrom(vertices_[from].point.position), axis);
   if (!curve) return std::nullopt;
   const double size = box_.hi[0] - box_.lo[0];
-  int nearest = -1;
+  std::optional<int> nearest;
   double least = 0.01 * size * size;  // a tenth of the cell: the curve is followed in steps of a sixteenth
   for (int v : fold_vertices) {
     const double distance = squared_distance(curve->points.back(), to_angstrom(vertices_[v].point.position));
@@ -175,25 +175,25 @@ std::optional<FoldTriangulator::Polygon> FoldTriangulator::fold_arc(int axis, in
     least = distance;
     nearest = v;
   }
-  if (nearest < 0) return std::nullopt;
+  if (!nearest) return std::nullopt;
   auto inner = static_cast<std::size_t>(std::lround(curve->length / (0.8 * size)));
-  if (inner == 0 && (vertices_[from].faces & vertices_[nearest].faces)) inner = 1;
+  if (inner == 0 && (vertices_[from].faces & vertices_[*nearest].faces)) inner = 1;
   if (curve->points.size() < inner + 2) return std::nullopt;
   Polygon arc{from};
   for (std::size_t i = 1; i <= inner; ++i) {
-    const int v = add_point(curve->points[i * curve->points.size() / (inner + 1) - 1]);
-    if (v < 0) return std::nullopt;
-    arc.push_back(v);
+    const auto v = add_point(curve->points[i * curve->points.size() / (inner + 1) - 1]);
+    if (!v) return std::nullopt;
+    arc.push_back(*v);
   }
-  arc.push_back(nearest);
+  arc.push_back(*nearest);
   return arc;
 }
 
-int FoldTriangulator::add_point(const Vec3& point) {
+std::optional<int> FoldTriangulator::add_point(const Vec3& point) {
   LoopVertex v;
   for (int k = 0; k < 3; ++k) {
     v.point.position[k] = std::llround(point[k] * kUnitsPerAngstrom);
-    if (v.point.position[k] <= lo_[k] || v.point.position[k] >= hi_[k]) return -1;
+    if (v.point.position[k] <= lo_[k] || v.point.position[k] >= hi_[k]) return std::nullopt;
   }
   v.point.normal = outward_normal(evaluate(atoms_, field_.decay(), point).gradient);
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());
@@ -217,9 +217,9 @@ bool FoldTriangulator::triangulate_polygon(const Polygon& polygon) {
       },
       [&](int i, int j, int k) { return triangle_cost(polygon[i], polygon[j], polygon[k]); });
   if (cost >= kPoorTriangle) {
-    if (const int apex = add_apex(polygon); apex >= 0) {
-      if (fan_cost(polygon, apex) < cost) {
-        for (int i = 0; i < n; ++i) triangles_.push_back({polygon[i], polygon[(i + 1) % n], apex});
+    if (const auto apex = add_apex(polygon)) {
+      if (fan_cost(polygon, *apex) < cost) {
+        for (int i = 0; i < n; ++i) triangles_.push_back({polygon[i], polygon[(i + 1) % n], *apex});
         return true;
       }
       vertices_.pop_back();
@@ -241,14 +241,14 @@ double FoldTriangulator::fan_cost(const Polygon& polygon, int apex) const {
   return cost;
 }
 
-int FoldTriangulator::add_apex(const Polygon& polygon) {
+std::optional<int> FoldTriangulator::add_apex(const Polygon& polygon) {
   Vec3 middle{};
   for (int v : polygon) {
     const Vec3 p = to_angstrom(vertices_[v].point.position);
     for (int k = 0; k < 3; ++k) middle[k] += p[k] / static_cast<double>(polygon.size());
   }
   const auto point = project_to_surface(atoms_, field_.decay(), box_, middle);
-  return point ? add_point(*point) : -1;
+  return point ? add_point(*point) : std::nullopt;
 }
 
 bool FoldTriangulator::triangles_are_disjoint() const {

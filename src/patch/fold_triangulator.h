@@ -12,7 +12,7 @@ namespace gaussmesh {
 struct FoldComponent {
   int chi = 1;  ///< Euler number: 1 for a disc, 0 for a tube
   int boundary_loops = 1;
-  int fold_axis = -1;             ///< the piece is cut along the fold curves of this axis; -1: it needs no cut
+  std::optional<int> fold_axis;   ///< the piece is cut along the fold curves of this axis; none: it needs no cut
   std::vector<CoordPoint> roots;  ///< roots on the cell's edges that belong to it
 };
 
@@ -48,8 +48,8 @@ class FoldTriangulator {
   std::optional<Polygon> fold_arc(int axis, int from, const std::vector<int>& fold_vertices);
   bool triangulate_polygon(const Polygon& polygon);
   double fan_cost(const Polygon& polygon, int apex) const;
-  int add_apex(const Polygon& polygon);
-  int add_point(const Vec3& point);
+  std::optional<int> add_apex(const Polygon& polygon);
+  std::optional<int> add_point(const Vec3& point);
   double triangle_cost(int i, int j, int k) const;
   bool triangles_are_disjoint() const;
 

@@ -240,10 +240,10 @@ bool PatchTriangulator::add_inner_corner(Polygon& polygon) {
   }
   for (const PlanePoint& at : candidates) {
     if (!strictly_inside(polygon, at)) continue;
-    const int vertex = lift(at);
-    if (vertex < 0) continue;
+    const auto vertex = lift(at);
+    if (!vertex) continue;
     on_outline_ = false;
-    const Corner inner{at, vertex};
+    const Corner inner{at, *vertex};
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       if (!segment_is_clear(polygon, polygon[i], inner)) continue;
       // A slit from corner i to the inner corner and back.
@@ -261,7 +261,7 @@ void PatchTriangulator::drop_last_point() {
   patch_.points.pop_back();
 }
 
-int PatchTriangulator::lift(const PlanePoint& at) {
+std::optional<int> PatchTriangulator::lift(const PlanePoint& at) {
   const int axis = direction_.axis;
   CoordPoint p = lo_;
   p[first_axis(axis)] = direction_.sign < 0 ? at.a : at.b;
@@ -274,7 +274,7 @@ int PatchTriangulator::lift(const PlanePoint& at) {
   const double decay = field_.decay();
   const LocalModel model(atoms_, decay, {start, end});
   const bool inside_lo = is_inside(field_, atoms_, model, start);
-  if (inside_lo == is_inside(field_, atoms_, model, end)) return -1;
+  if (inside_lo == is_inside(field_, atoms_, model, end)) return std::nullopt;
   const LineRoot root =
       refine_root(atoms_, decay, start, axis, start[axis], end[axis], inside_lo, 0.5 * (start[axis] + end[axis]));
   p[axis] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis] + 1, hi_[axis] - 1);

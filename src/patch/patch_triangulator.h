@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,7 +73,7 @@ class PatchTriangulator {
   bool diagonal_is_free(const Polygon& polygon, int i, int j) const;
   bool segment_is_clear(const Polygon& polygon, const Corner& p, const Corner& q) const;
   bool add_inner_corner(Polygon& polygon);
-  int lift(const PlanePoint& at);
+  std::optional<int> lift(const PlanePoint& at);
   void drop_last_point();
   PlanePoint project(const CoordPoint& p) const;
 

@@ -117,7 +117,7 @@ class CellSurface {
         most = std::max(most, points_[vertices_[v]].normal[k]);
       }
       if (component.chi == 1 && (least > kCommonAxis || most < -kCommonAxis)) {
-        component.fold_axis = -1;
+        component.fold_axis.reset();
         return true;
       }
       int crossings = 0;
@@ -133,7 +133,7 @@ class CellSurface {
         best_depth = depth;
       }
     }
-    return component.fold_axis >= 0;
+    return component.fold_axis.has_value();
   }
 
   const TracedVertices& points_;

@@ -24,7 +24,7 @@ CellKey cell_around(const CellKey& cell, int level) {
 /// Axes along which the components of a cell are cut.
 unsigned fold_axes_of(const FoldCell& cell) {
   unsigned axes = 0;
-  for (const FoldComponent& c : cell.components) axes |= c.fold_axis >= 0 ? 1u << c.fold_axis : 0u;
+  for (const FoldComponent& c : cell.components) axes |= c.fold_axis ? 1u << *c.fold_axis : 0u;
   return axes;
 }
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "atoms/text_lines.h"
 #include "gaussmesh/read_mesh.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/number_text.h"
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
 
@@ -147,8 +148,8 @@ class AsciiNumbers {
   }
 
   [[noreturn]] void fail(std::string_view expected, double got) const {
-    throw InputError(to_string({name_, line_}) + ": expected " + std::string(expected) + ", got '" +
-                     std::to_string(got) + "'");
+    throw InputError(to_string({name_, line_}) + ": expected " + std::string(expected) + ", got '" + number_text(got) +
+                     "'");
   }
 
  private:
@@ -186,7 +187,7 @@ class BinaryNumbers {
 
   [[noreturn]] void fail(std::string_view expected, double got) const {
     throw InputError(std::string(name_) + ": expected " + std::string(expected) + " before byte " +
-                     std::to_string(offset_ + position_) + ", got '" + std::to_string(got) + "'");
+                     std::to_string(offset_ + position_) + ", got '" + number_text(got) + "'");
   }
 
  private:

@@ -2,9 +2,9 @@
 
 #include "gaussmesh/read_mesh.h"
 
-#include "atoms/read_file.h"
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
+#include "text/read_file.h"
 
 namespace gaussmesh {
 namespace {

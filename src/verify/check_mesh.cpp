@@ -95,7 +95,7 @@ MeshComponent describe(const ComponentTopology& topology, const ComponentGeometr
   component.volume = geometry.volume;
   component.closed = topology.closed;
   component.depth = geometry.around.size();
-  const int wanted_sign = component.depth % 2 == 0 ? 1 : -1;
+  const int wanted_sign = component.is_cavity() ? -1 : 1;
   component.inverted = topology.closed && geometry.volume_sign != wanted_sign;
   return component;
 }

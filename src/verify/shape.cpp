@@ -310,7 +310,7 @@ MeshCheck measure_shape(const TriangleMesh& mesh) {
   check.min_edge = sums.min_edge;
   check.mean_edge = sums.sum_edges / (3 * count);
   check.max_edge = sums.max_edge;
-  check.under_30_deg = static_cast<double>(sums.under_30_deg) / count;
+  check.fraction_under_30_deg = static_cast<double>(sums.under_30_deg) / count;
   check.ratio_histogram = sums.ratio_histogram;
   check.angle_histogram = sums.angle_histogram;
   return check;

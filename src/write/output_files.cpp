@@ -37,7 +37,15 @@ void OutputFiles::add_text(std::string_view text, const std::filesystem::path& p
 
 void OutputFiles::commit() {
   const WholeFile::CommitsUnderWay guard;
-  for (WholeFile& file : state_->files) file.commit();
+  if (state_->files.size() > 1) {
+    for (WholeFile& file : state_->files) file.keep_old();
+  }
+  try {
+    for (WholeFile& file : state_->files) file.commit();
+  } catch (...) {
+    for (WholeFile& file : state_->files) file.undo();
+    throw;
+  }
   state_->files.clear();
 }
 

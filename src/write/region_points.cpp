@@ -70,7 +70,7 @@ std::vector<RegionPoint> find_region_points(const TriangleMesh& mesh, const Mesh
            std::binary_search(around.begin(), around.end(), component);
   };
   const auto find_point = [&](std::uint32_t component) {
-    const bool is_cavity = check.components[component].volume < 0.0;
+    const bool is_cavity = check.components[component].is_cavity();
     for (const std::uint32_t t : large[component]) {
       for (const double depth : kDepths) {
         const Point point = point_under(mesh, t, is_cavity, depth);

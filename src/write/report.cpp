@@ -25,7 +25,7 @@ Json options_json(const MeshReport& report) {
 Json components_json(const MeshCheck& check) {
   Json list = Json::array();
   for (const MeshComponent& c : check.components) {
-    list.push_back({{"kind", c.volume < 0.0 ? "cavity" : "outside"},
+    list.push_back({{"kind", c.is_cavity() ? "cavity" : "outside"},
                     {"triangles", c.triangles},
                     {"vertices", c.vertices},
                     {"chi", c.chi},
@@ -41,7 +41,7 @@ Json quality_json(const MeshCheck& check) {
   return {{"min_angle_deg", check.min_angle_deg},
           {"max_angle_deg", check.max_angle_deg},
           {"mean_min_angle_deg", check.mean_min_angle_deg},
-          {"fraction_under_30_deg", check.under_30_deg},
+          {"fraction_under_30_deg", check.fraction_under_30_deg},
           {"mean_edge_ratio", check.mean_edge_ratio},
           {"min_edge_A", check.min_edge},
           {"mean_edge_A", check.mean_edge},
@@ -70,7 +70,7 @@ Json proof_json(const MeshReport& report) {
 
 std::size_t count_cavities(const MeshCheck& check) {
   std::size_t cavities = 0;
-  for (const MeshComponent& c : check.components) cavities += c.volume < 0.0;
+  for (const MeshComponent& c : check.components) cavities += c.is_cavity();
   return cavities;
 }
 
@@ -121,8 +121,8 @@ std::string report_summary(const MeshReport& report) {
                      number_text(memory_MB, 3) + " MB\n";
   text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
           " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
-          number_text(100.0 * check.under_30_deg, 2) + " % under 30; mean edge " + number_text(check.mean_edge, 3) +
-          " A, shortest over longest " + number_text(check.mean_edge_ratio, 3);
+          number_text(100.0 * check.fraction_under_30_deg, 2) + " % under 30; mean edge " +
+          number_text(check.mean_edge, 3) + " A, shortest over longest " + number_text(check.mean_edge_ratio, 3);
   if (report.surface_distance) text += "; within " + number_text(*report.surface_distance, 3) + " A of the surface";
   text += "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +

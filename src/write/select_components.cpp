@@ -7,12 +7,10 @@
 namespace gaussmesh {
 namespace {
 
-bool is_cavity(const MeshComponent& component) { return component.volume < 0.0; }
-
 /// Whether a component or one that it lies in is a cavity smaller than `min_volume`.
 bool is_left_out(const MeshCheck& check, std::uint32_t component, double min_volume) {
   for (std::optional<std::uint32_t> c = component; c; c = check.components[*c].parent) {
-    if (is_cavity(check.components[*c]) && -check.components[*c].volume < min_volume) return true;
+    if (check.components[*c].is_cavity() && -check.components[*c].volume < min_volume) return true;
   }
   return false;
 }
@@ -29,7 +27,7 @@ ComponentList leave_out_cavities(const MeshCheck& check, double min_volume) {
 ComponentList outsides_first(const MeshCheck& check) {
   ComponentList list(check.components.size());
   std::iota(list.begin(), list.end(), 0u);
-  std::stable_partition(list.begin(), list.end(), [&](std::uint32_t c) { return !is_cavity(check.components[c]); });
+  std::stable_partition(list.begin(), list.end(), [&](std::uint32_t c) { return !check.components[c].is_cavity(); });
   return list;
 }
 

@@ -87,10 +87,14 @@ WholeFile::WholeFile(WholeFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, nullptr)),
+      old_(std::exchange(other.old_, {})),
+      old_is_lost_(std::exchange(other.old_is_lost_, false)),
+      is_committed_(std::exchange(other.is_committed_, false)),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 WholeFile::~WholeFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
+  if (!old_.empty()) ::unlink(old_.c_str());
   if (temporary_ == nullptr) return;
   ::unlink(temporary_->path.c_str());
   temporary_->is_there = false;
@@ -104,10 +108,10 @@ void WholeFile::make_temporary() {
   unfinished_ = temporary_;
   constexpr int kAttempts = 100;
   for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
-    temporary_->path = target_.string() + "." + random_letters();
+    temporary_->path = beside_target();
     // Known before it is there: a signal at any moment from here on finds it.
     temporary_->is_there = true;
-    descriptor_ = ::open(temporary_->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    descriptor_ = ::open(temporary_->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
       temporary_->is_there = false;
       if (errno != EEXIST) break;
@@ -118,6 +122,9 @@ void WholeFile::make_temporary() {
     fail("cannot be created");
   }
 }
+
+/// A name beside the target that is not likely to be taken.
+std::string WholeFile::beside_target() const { return target_.string() + "." + random_letters(); }
 
 void WholeFile::fail(const char* what) const {
   throw InputError(path_.string() + ": the output file " + what + ": " + std::strerror(errno));
@@ -135,12 +142,10 @@ void WholeFile::write(std::string_view text) {
 void WholeFile::close() {
   if (descriptor_ < 0) return;
   if (temporary_ != nullptr) {
-    // So far only its owner reads it; give it the permissions of what it replaces, or those of any new file.
     struct stat old {};
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    const mode_t mode = ::stat(target_.c_str(), &old) == 0 ? old.st_mode & 0777 : 0666 & ~mask;
-    if (::fchmod(descriptor_, mode) != 0) fail("cannot be given its permissions");
+    if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 0777) != 0) {
+      fail("cannot be given the permissions of what it replaces");
+    }
   }
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be closed");
 }
@@ -151,6 +156,26 @@ void WholeFile::commit() {
   if (std::rename(temporary_->path.c_str(), target_.c_str()) != 0) fail("cannot be put in its place");
   temporary_->is_there = false;
   temporary_ = nullptr;
+  is_committed_ = true;
+}
+
+void WholeFile::keep_old() {
+  if (temporary_ == nullptr) return;
+  const std::string name = beside_target();
+  if (::link(target_.c_str(), name.c_str()) == 0) {
+    old_ = name;
+  } else {
+    old_is_lost_ = errno != ENOENT;
+  }
+}
+
+void WholeFile::undo() noexcept {
+  if (!std::exchange(is_committed_, false)) return;
+  if (old_.empty()) {
+    if (!old_is_lost_) ::unlink(target_.c_str());
+  } else if (std::rename(old_.c_str(), target_.c_str()) == 0) {
+    old_.clear();
+  }
 }
 
 bool remove_unfinished_files() noexcept {

@@ -31,6 +31,12 @@ class WholeFile {
 
   void commit();
 
+  /// Has undo() bring back what commit() replaces, where the file system knows hard links.
+  void keep_old();
+
+  /// Takes a commit() back: what was there at keep_old() is there again. What could not be kept stays replaced.
+  void undo() noexcept;
+
   /// While there is one, remove_unfinished_files() does nothing: for the commits of several files that belong together.
   class CommitsUnderWay {
    public:
@@ -52,11 +58,15 @@ class WholeFile {
   static std::atomic<int> commits_under_way_;
 
   void make_temporary();
+  std::string beside_target() const;
   [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path path_;       // as given, for messages
   std::filesystem::path target_;     // what is replaced
   Unfinished* temporary_ = nullptr;  // none where the output goes to its place at once
+  std::string old_;                  // another name of what is replaced, where it is kept
+  bool old_is_lost_ = false;         // there is something to replace, and it cannot be kept
+  bool is_committed_ = false;
   int descriptor_ = -1;
 };
 

@@ -2,7 +2,9 @@
 //
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format and, for 2.2, #MSH-file-format-version-2-_0028Legacy_0029
 
+#include <algorithm>
 #include <array>
+#include <map>
 
 #include "write/mesh_writer.h"
 
@@ -46,24 +48,23 @@ void write_vertex_data(const MeshView& view, WholeFile& file) {
 
 /// What belongs to one component, as Gmsh's version 4 wants it.
 struct Entity {
-  std::uint32_t tag = 0;
+  std::uint64_t tag = 0;
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> triangles;
 };
 
-/// The components that have vertices, by their tags.
+/// The components that have vertices, in the order of their tags but for the one of those without.
 std::vector<Entity> find_entities(const MeshView& view) {
-  std::vector<Entity> by_tag;
-  const auto at = [&](std::uint32_t tag) -> Entity& {
-    while (by_tag.size() <= tag) by_tag.push_back({static_cast<std::uint32_t>(by_tag.size()), {}, {}});
-    return by_tag[tag];
-  };
-  for (std::uint32_t v = 0; v < view.mesh.vertices.size(); ++v) at(view.tag(v)).vertices.push_back(v);
+  std::map<std::uint64_t, Entity> by_tag;
+  for (std::uint32_t v = 0; v < view.mesh.vertices.size(); ++v) by_tag[view.tag(v)].vertices.push_back(v);
   for (std::uint32_t t = 0; t < view.mesh.triangles.size(); ++t)
-    at(view.tag(view.mesh.triangles[t])).triangles.push_back(t);
-  if (!by_tag.empty()) by_tag.front().tag = static_cast<std::uint32_t>(by_tag.size());  // Gmsh has no tag 0
-  std::erase_if(by_tag, [](const Entity& e) { return e.vertices.empty(); });
-  return by_tag;
+    by_tag[view.tag(view.mesh.triangles[t])].triangles.push_back(t);
+  std::vector<Entity> entities;
+  for (auto& [tag, entity] : by_tag) {
+    entity.tag = tag > 0 ? tag : by_tag.rbegin()->first + 1;  // Gmsh has no tag 0
+    entities.push_back(std::move(entity));
+  }
+  return entities;
 }
 
 std::string entity_line(const TriangleMesh& mesh, const Entity& entity) {

@@ -15,7 +15,7 @@ std::string point_lines(const std::vector<RegionPoint>& points, const MeshCheck&
   std::string lines;
   std::size_t count = 0;
   for (const RegionPoint& region : points) {
-    const bool is_cavity = check.components[region.component].volume < 0.0;
+    const bool is_cavity = check.components[region.component].is_cavity();
     if (is_cavity != cavities) continue;
     char text[kLongestPoint];
     char* const end = put_point(text, region.point, ' ');

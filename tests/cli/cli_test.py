@@ -439,6 +439,17 @@ class Running(CliTest):
         self.assertEqual((molecule.read_bytes(), self.mesh.read_bytes()), (text, mesh))
         self.assertEqual(self.files(), ["link.off", "mol.pqr", "out.off"])
 
+    def test_separate_surfaces_replace_nothing_that_is_read_or_written(self):
+        molecule = self.write("mol_1.pqr", self.molecule("methanol").read_text())
+        text = molecule.read_bytes()
+        separate = ["mol_1.pqr", "--cavities", "separate", "--format", "off"]
+        error = self.expect(WRONG_USE, *separate, "-o", "mol.pqr").stderr
+        self.assertIn("expected another file to write than 'mol_1.pqr'", error)
+        error = self.expect(WRONG_USE, *separate, "-o", "out.off", "--report", "out_1.off").stderr
+        self.assertIn("expected each output once, got 'out_1.off' again", error)
+        self.assertEqual(molecule.read_bytes(), text)
+        self.assertEqual(self.files(), ["mol_1.pqr"])
+
     def test_links_and_permissions(self):
         (self.folder / "link.off").symlink_to("out.off")
         self.expect(0, self.molecule("methanol"), "-o", "link.off")

@@ -20,7 +20,7 @@ struct Piece {
 /// The components of a checked mesh, sorted: equal for meshes of the same topology.
 inline std::vector<Piece> topology(const MeshCheck& check) {
   std::vector<Piece> pieces;
-  for (const MeshComponent& c : check.components) pieces.push_back({c.genus, c.volume < 0.0});
+  for (const MeshComponent& c : check.components) pieces.push_back({c.genus, c.is_cavity()});
   std::sort(pieces.begin(), pieces.end());
   return pieces;
 }

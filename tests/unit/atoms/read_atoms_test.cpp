@@ -196,8 +196,8 @@ TEST_CASE("read_atoms refuses damaged gzip") {
   CHECK_THAT(error_of_file("head.pqr.gz", data.substr(0, 2)), ContainsSubstring("the file is cut off"));
   std::string flipped = data;
   flipped[data.size() - 6] ^= 1;  // a byte of the check sum
-  CHECK_THAT(error_of_file("flipped.pqr.gz", flipped), ContainsSubstring("expected gzip data, got corrupt ones"));
-  CHECK_THAT(error_of_file("tail.pqr.gz", data + "tail"), ContainsSubstring("other data behind them"));
+  CHECK_THAT(error_of_file("flipped.pqr.gz", flipped), ContainsSubstring("expected gzip data, got corrupt data"));
+  CHECK_THAT(error_of_file("tail.pqr.gz", data + "tail"), ContainsSubstring("other data after it"));
   CHECK_THAT(error_of_file("empty.pqr.gz", gzipped("")), ContainsSubstring("got no atoms"));
 }
 

@@ -23,7 +23,7 @@ Vec3 in_cell(double x, double y, double z) {
 }
 
 /// One component with all roots on the cell's edges.
-FoldCell one_component(const std::vector<Loop>& loops, int chi, int fold_axis) {
+FoldCell one_component(const std::vector<Loop>& loops, int chi, std::optional<int> fold_axis) {
   FoldComponent component{chi, static_cast<int>(loops.size()), fold_axis, {}};
   for (const Loop& loop : loops) {
     for (const LoopVertex& v : loop) {
@@ -108,7 +108,7 @@ TEST_CASE("a piece without a common fold is triangulated as it is") {
   const std::vector<Loop> loops = cell_loops(field, kLattice, kCell);
   REQUIRE(loops.size() == 1);
   FoldTriangulator triangulator(field);
-  const Patch& patch = triangulator.triangulate(kLattice, one_component(loops, 1, -1), loops);
+  const Patch& patch = triangulator.triangulate(kLattice, one_component(loops, 1, std::nullopt), loops);
   const PatchFacts facts = check_patch(patch, loops);
   CHECK(facts.chi == 1);
   CHECK(facts.boundary == loops[0].size());

@@ -87,6 +87,14 @@ TEST_CASE("Gmsh 4.1 gives back the same places, by component") {
   CHECK(places[0] == places[1]);
 }
 
+TEST_CASE("Gmsh 4.1 takes components of any number") {
+  MeshFile file = sample();
+  file.data.components.assign(file.mesh.vertices.size(), 4'000'000'000u);
+  file.data.components[0] = kNoComponent;
+  const MeshFile back = write_and_read(file, "gmsh41", "m.msh");
+  CHECK(back.mesh.triangles.size() == file.mesh.triangles.size());
+}
+
 TEST_CASE("STL gives back floats, welded where they are equal and only there") {
   const MeshFile file = sample();
   const MeshFile back = write_and_read(file, "stl", "m.stl");

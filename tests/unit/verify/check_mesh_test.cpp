@@ -104,7 +104,7 @@ TEST_CASE("shape of an equilateral and of a right triangle") {
   CHECK(check.min_edge == Approx(2.0));
   CHECK(check.max_edge == Approx(5.0));
   CHECK(check.mean_edge == Approx(3.0));
-  CHECK(check.under_30_deg == 0.0);
+  CHECK(check.fraction_under_30_deg == 0.0);
   CHECK(std::accumulate(check.ratio_histogram.begin(), check.ratio_histogram.end(), std::size_t{0}) == 2);
   CHECK(check.ratio_histogram[12] + check.ratio_histogram[11] == 1);  // 0.6 is on the edge between two bins
   CHECK(std::accumulate(check.angle_histogram.begin(), check.angle_histogram.end(), std::size_t{0}) == 6);
@@ -117,7 +117,7 @@ TEST_CASE("needles: their angles are good to the last digits") {
   const MeshCheck check = check_mesh(mesh);
   CHECK(check.min_angle_deg == Approx(2e-9 * 180 / std::numbers::pi).epsilon(1e-12));
   CHECK(check.max_angle_deg == Approx(180 - 4e-9 * 180 / std::numbers::pi).epsilon(1e-14));
-  CHECK(check.under_30_deg == 1.0);
+  CHECK(check.fraction_under_30_deg == 1.0);
 }
 
 TEST_CASE("the shape of a triangle that is one point") {

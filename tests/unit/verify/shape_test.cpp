@@ -45,7 +45,7 @@ TEST_CASE("many triangles measured together are as they are one by one") {
     sum.min_edge = std::min(sum.min_edge, one.min_edge);
     sum.max_edge = std::max(sum.max_edge, one.max_edge);
     sum.mean_edge += one.mean_edge / 1000;
-    sum.under_30_deg += one.under_30_deg / 1000;
+    sum.fraction_under_30_deg += one.fraction_under_30_deg / 1000;
     for (std::size_t i = 0; i < sum.angle_histogram.size(); ++i) sum.angle_histogram[i] += one.angle_histogram[i];
     for (std::size_t i = 0; i < sum.ratio_histogram.size(); ++i) sum.ratio_histogram[i] += one.ratio_histogram[i];
   }
@@ -56,7 +56,7 @@ TEST_CASE("many triangles measured together are as they are one by one") {
   CHECK(all.min_edge == Approx(sum.min_edge).epsilon(1e-12));
   CHECK(all.max_edge == Approx(sum.max_edge).epsilon(1e-12));
   CHECK(all.mean_edge == Approx(sum.mean_edge).epsilon(1e-12));
-  CHECK(all.under_30_deg == Approx(sum.under_30_deg).epsilon(1e-12));
+  CHECK(all.fraction_under_30_deg == Approx(sum.fraction_under_30_deg).epsilon(1e-12));
   CHECK(all.angle_histogram == sum.angle_histogram);
   CHECK(all.ratio_histogram == sum.ratio_histogram);
 }

@@ -102,6 +102,27 @@ TEST_CASE("several files appear together or not at all") {
   CHECK(folder.files() == 2);
 }
 
+TEST_CASE("where one file cannot be put in its place the others are as they were") {
+  const Folder folder;
+  write_text("old", folder / "a");
+  OutputFiles files;
+  files.add_text("new", folder / "a");
+  files.add_text("new", folder / "b");
+  files.add_text("new", folder / "c");
+  fs::create_directory(folder / "c");  // no file can be renamed to it
+  CHECK_THROWS_WITH(files.commit(), Catch::Matchers::ContainsSubstring("cannot be put in its place"));
+  CHECK(read_file(folder / "a") == "old");
+  CHECK_FALSE(fs::exists(folder / "b"));
+  files = OutputFiles();
+  CHECK(folder.files() == 2);
+  fs::remove(folder / "c");
+  files.add_text("new", folder / "a");
+  files.add_text("new", folder / "c");
+  files.commit();
+  CHECK(read_file(folder / "a") + read_file(folder / "c") == "newnew");
+  CHECK(folder.files() == 2);
+}
+
 TEST_CASE("what is unfinished can be removed at any time, and nothing else is") {
   const Folder folder;
   write_text("done", folder / "done");

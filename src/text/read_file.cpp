@@ -1,4 +1,4 @@
-#include "atoms/read_file.h"
+#include "text/read_file.h"
 
 #include <zlib.h>
 
@@ -12,16 +12,16 @@
 #include <system_error>
 #include <utility>
 
-#include "atoms/text_lines.h"
 #include "gaussmesh/error.h"
+#include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {
 
 constexpr std::string_view kGzipMagic = "\x1f\x8b";
 
-/// Gzip makes atoms 3 to 10 times smaller, and at most 1032 times: what expands more than this, and to more than
-/// fits any memory, is no file of atoms.
+/// Gzip makes atoms and meshes 3 to 10 times smaller, and other data up to 1032 times: what expands more than this, and
+/// to more than is always expanded, is neither.
 constexpr std::size_t kLargestExpansion = 200;
 constexpr std::size_t kAlwaysExpanded = std::size_t{64} << 20;
 
@@ -67,7 +67,7 @@ class GzipReader {
       inflateReset(&stream_);
     } while (data_.substr(position_).starts_with(kGzipMagic));
     if (data_.find_first_not_of('\0', position_) != std::string_view::npos) {  // tapes pad with NUL
-      fail_to_expand(name_, "other data behind them; the file is corrupt");
+      fail_to_expand(name_, "other data after it; the file is corrupt");
     }
     return std::move(text_);
   }
@@ -79,7 +79,7 @@ class GzipReader {
       status = expand_chunk();
       if (text_.size() > limit_) {
         fail_to_expand(name_, "data that expand more than " + std::to_string(kLargestExpansion) +
-                                  "-fold; if they are atoms, expand them with gunzip first");
+                                  "-fold; if that is meant, expand them with gunzip first");
       }
     }
   }
@@ -95,10 +95,10 @@ class GzipReader {
     position_ += given - stream_.avail_in;
     text_.append(chunk_.data(), chunk_.size() - stream_.avail_out);
     if (status == Z_BUF_ERROR && position_ == data_.size()) {
-      fail_to_expand(name_, "only their beginning; the file is cut off");
+      fail_to_expand(name_, "only its beginning; the file is cut off");
     }
     if (status != Z_OK && status != Z_STREAM_END) {
-      fail_to_expand(name_, std::string("corrupt ones (") + (stream_.msg != nullptr ? stream_.msg : "damaged") + ")");
+      fail_to_expand(name_, std::string("corrupt data (") + (stream_.msg != nullptr ? stream_.msg : "damaged") + ")");
     }
     return status;
   }
