@@ -108,7 +108,7 @@ inline Box cell_box(const Lattice& lattice, const CellKey& cell) {
   return lattice_box(lattice, cell.lo, cell_hi(cell));
 }
 
-/// Number of the child that has the upper half along the axes whose bits are set in `child`.
+/// One of the eight halves along all axes of a cell: bit k of `child` chooses the upper half along axis k.
 inline CellKey child_cell(const CellKey& cell, int child) {
   CellKey result{cell.lo, cell.level + 1};
   for (int a = 0; a < 3; ++a) result.lo[a] += (child >> a & 1) * fine_size(result.level);

@@ -1,8 +1,8 @@
 // Loops compiled for several instruction sets, the best of which is chosen when the program starts.
 #pragma once
 
-// Sanitizers run before the dynamic linker's resolvers are safe to call; other compilers and processors take the
-// portable code. Versions differ by roundings: wider lanes add in another order, and where the processor can, products
+// The best version is chosen while the program is loaded, before a sanitizer's runtime is ready, and instrumented code
+// would crash there: sanitizers, and other compilers and processors, take the portable code. Versions differ by roundings: wider lanes add in another order, and where the processor can, products
 // are fused with sums (src/CMakeLists.txt says in which files).
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -76,6 +76,10 @@ inline constexpr double kProofTruncation = 10.0;
 /// The same where little things matter, in small cells near singular places: e^-40 = 4e-18.
 inline constexpr double kFineTruncation = 40.0;
 
+/// Whether the atoms that a list leaves out may move the surface by half of what a vertex may be off (1e-6 A), where
+/// log phi has this slope (1/A).
+inline bool is_tail_felt(const NearAtoms& atoms, double slope) { return !(atoms.tail <= 4e-7 * slope); }
+
 /// Bounds of phi / c over a box from the atoms' distances alone: good for boxes larger than an atom.
 struct CrudeBounds {
   double upper = 0.0;   ///< phi / c is at most this

@@ -108,7 +108,7 @@ FieldJet jet_of(const SecondSums<Real>& s, double d) {
 
 }  // namespace
 
-BlockField::BlockField(const GaussianField& field, const Box& box) : decay_(field.decay()), box_(box) {
+BlockField::BlockField(const GaussianField& field, const Box& box) : field_(field), decay_(field.decay()), box_(box) {
   cell_size_ = kCellSize;
   for (int k = 0; k < 3; ++k) cell_size_ = std::max(cell_size_, (box.hi[k] - box.lo[k]) / kMostCells);
   std::size_t count = 1;
@@ -196,6 +196,16 @@ PointValue BlockField::evaluate_roughly(const Vec3& point) {
   return {std::log(double(s.total)), 0.0, {f * double(s.x), f * double(s.y), f * double(s.z)}};
 }
 
+PointValue BlockField::evaluate_exactly(const Vec3& point) {
+  const NearAtoms& near = atoms_at(point);
+  const PointValue value = evaluate(near, decay_, point);
+  if (!is_tail_felt(near, length(value.gradient))) return value;
+  const std::array<int, 3> cell = cell_of(point);
+  if (fine_number_ != number_of(cell)) field_.collect_near(box_around(cell, 1), fine_, kFineTruncation);
+  fine_number_ = number_of(cell);
+  return evaluate(fine_, decay_, point);
+}
+
 FieldJet BlockField::jet(const Vec3& point) {
   if (is_rough_usable_) {
     const RoughAtoms& near = rough_atoms_at(point);
@@ -221,7 +231,7 @@ std::optional<Place> BlockField::project(const Vec3& point, double farthest, Acc
   Vec3 p = point;
   for (int iteration = 0; iteration < 40; ++iteration) {
     is_rough = is_rough && iteration < kRoughIterations;
-    const PointValue v = is_rough ? evaluate_roughly(p) : evaluate(atoms_at(p), decay_, p);
+    const PointValue v = is_rough ? evaluate_roughly(p) : evaluate_exactly(p);
     const double slope = length(v.gradient);
     if (is_rough && !(slope > kLeastRoughSlope)) {
       is_rough = false;
@@ -247,7 +257,7 @@ std::optional<Place> BlockField::project_along(const Vec3& direction, const Vec3
   double at = 0.0;
   for (int iteration = 0; iteration < 40; ++iteration) {
     const Vec3 p = point + at * unit;
-    const PointValue v = evaluate(atoms_at(p), decay_, p);
+    const PointValue v = evaluate_exactly(p);
     const double slope = dot(v.gradient, unit);
     if (!(std::abs(slope) > 0.0 && std::isfinite(v.value))) return std::nullopt;
     const double step = std::clamp(-v.value / slope, -0.25 * farthest, 0.25 * farthest);

@@ -38,7 +38,7 @@ struct RoughAtoms {
 
 /// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
 /// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where
-/// rough places are asked for; those are found in single precision. No bounds are kept, since the verdict on a
+/// rough places are asked for, which are found in single precision; less where the field hardly changes. No bounds are kept, since the verdict on a
 /// finished mesh does not come from here.
 class BlockField {
  public:
@@ -70,7 +70,9 @@ class BlockField {
   const NearAtoms& atoms_at(const Vec3& point);
   const RoughAtoms& rough_atoms_at(const Vec3& point);
   PointValue evaluate_roughly(const Vec3& point);
+  PointValue evaluate_exactly(const Vec3& point);
 
+  const GaussianField& field_;
   double decay_;
   Box box_;
   double cell_size_;
@@ -81,6 +83,8 @@ class BlockField {
   std::vector<NearAtoms> lists_;         ///< by cell, the same; given back when there are too many
   std::size_t lists_made_ = 0;           ///< since then
   std::vector<RoughAtoms> rough_lists_;  ///< the same
+  NearAtoms fine_;                       ///< more atoms for the cell of this number, where those left out are felt
+  std::optional<std::size_t> fine_number_;
 };
 
 /// Principal curvatures of a surface (1/A), in absolute value.

@@ -16,7 +16,8 @@ namespace gaussmesh {
 /// Splits edges longer than `factor` times the wanted size in the middle; new vertices are put on the surface.
 std::size_t split_long_edges(BlockMesh& mesh, SheetGuard& guard, BlockField& field, double factor, Accuracy accuracy);
 
-/// Collapses edges shorter than `factor` times the wanted size, into the end that leaves the better triangles.
+/// Collapses edges shorter than `factor` times the wanted size, into the end of the half-edge with the smaller number,
+/// or into the other one where that is refused.
 std::size_t collapse_short_edges(BlockMesh& mesh, SheetGuard& guard, double factor);
 
 /// Flips edges whose opposite angles add up to more than 180 degrees: Delaunay's condition.

@@ -4,7 +4,7 @@
 
 namespace gaussmesh {
 
-HalfEdgeMesh::HalfEdgeMesh(std::vector<Triangle> triangles, std::size_t vertex_count)
+HalfEdgeMesh::HalfEdgeMesh(std::span<const Triangle> triangles, std::size_t vertex_count)
     : twin_(3 * triangles.size(), kNone), out_(vertex_count, kNone), inner_(vertex_count, 1) {
   corners_.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) corners_.insert(corners_.end(), t.begin(), t.end());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gaussmesh/triangle_mesh.h"
@@ -12,15 +13,15 @@ namespace gaussmesh {
 /// Connectivity of an oriented 2-manifold of triangles, with or without boundary. Geometry is the caller's.
 ///
 /// Half-edge 3 t + i runs from corner i of triangle t to corner i + 1. A vertex is inner if the triangles round it
-/// are a closed fan. Every operation keeps the mesh a manifold of the same topology and its boundary as it is, or
-/// is refused.
+/// are a closed fan. Operations keep the mesh a manifold of the same topology, and its boundary as it is, where
+/// can_flip() or can_collapse() allowed them; they do not look at that themselves.
 class HalfEdgeMesh {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = 0xFFFFFFFFu;
 
   /// @param triangles  part of a closed, oriented manifold; vertices are 0 .. vertex_count - 1. Cost: O(n)
-  HalfEdgeMesh(std::vector<Triangle> triangles, std::size_t vertex_count);
+  HalfEdgeMesh(std::span<const Triangle> triangles, std::size_t vertex_count);
 
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -58,12 +59,13 @@ class HalfEdgeMesh {
   /// Whether the edge, not on the boundary, may turn within its two triangles: the other diagonal is not an edge
   /// yet, and no valence falls below 3. Refused where the fans that tell are not all here.
   bool can_flip(Index h) const;
+  /// @param h  can_flip(h)
   void flip(Index h);
 
-  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3. Refused unless
+  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3 at least. Refused unless
   /// all four are inner.
   bool can_collapse(Index h) const;
-  /// Moves from(h) into to(h): the vertex from(h) and two triangles are gone.
+  /// Moves from(h) into to(h): the vertex from(h) and two triangles are gone. @param h  can_collapse(h)
   void collapse(Index h);
 
   /// Puts a new vertex in an edge that is not on the boundary. @return its number, the next one: vertices() before

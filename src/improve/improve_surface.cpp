@@ -51,6 +51,10 @@ constexpr int kSweepsWithOtherPlanes = 4;
 constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
+
+/// Where more of the vertices than this are bad and larger boxes bring nothing, the surface is finer than triangles may
+/// be.
+constexpr double kManyBad = 0.02;
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -208,10 +212,18 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
   }
   std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
   bool is_mended = false;
+  std::size_t fewest = mesh.at.size();
+  int last_gain = 0;
   for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
     if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
     is_mended = bad.empty();
     if (is_mended) break;
+    if (bad.size() < fewest) {
+      fewest = bad.size();
+      last_gain = i;
+    }
+    const bool are_many = static_cast<double>(bad.size()) > kManyBad * static_cast<double>(mesh.at.size());
+    if (are_many && i - last_gain > kSweepsPerDoubling) break;
     const std::vector<Box> boxes =
         take_boxes_round(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling), kMostHalfEdge * targets.spacing);
     std::vector<std::vector<BadPlace>> left(boxes.size());

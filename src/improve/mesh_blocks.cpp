@@ -212,7 +212,7 @@ BlockMesh MeshBlocks::extract(std::size_t block) const {
     triangles.push_back({local_[t[0]], local_[t[1]], local_[t[2]]});
   }
   const std::size_t count = own_count + outside.size();
-  BlockMesh result{{}, HalfEdgeMesh(std::move(triangles), count), {}, {}, {}, boxes_[block]};
+  BlockMesh result{{}, HalfEdgeMesh(triangles, count), {}, {}, {}, boxes_[block]};
   result.reserve(count + count / 4);
   for (std::size_t i = 0; i < own_count; ++i) result.append(mesh_, own[i]);
   for (const std::uint32_t v : outside) result.append(mesh_, v);

@@ -59,9 +59,9 @@ std::optional<Vec3> project_to_fold(const NearAtoms& atoms, double decay, const 
 
 std::optional<FoldCurve> follow_fold(const NearAtoms& atoms, double decay, const Box& box, const Vec3& start,
                                      int axis) {
+  constexpr double kLongest = 5.2;  // cells: three diagonals, more than a curve that does not turn back has
   const double size = box.hi[0] - box.lo[0];
   const double step = size / 16.0;
-  const Vector3d middle(0.5 * (box.lo[0] + box.hi[0]), 0.5 * (box.lo[1] + box.hi[1]), 0.5 * (box.lo[2] + box.hi[2]));
   const auto direction = [&](const Vector3d& p) {
     const FoldJet jet = fold_jet(atoms, decay, p, axis);
     return jet.gradient.cross(jet.hessian_row).normalized().eval();
@@ -73,7 +73,7 @@ std::optional<FoldCurve> follow_fold(const NearAtoms& atoms, double decay, const
   if (!is_in(box, p + 1e-3 * step * forward)) return std::nullopt;
 
   FoldCurve curve;
-  while (curve.length < 5.2 * size) {
+  while (curve.length < kLongest * size) {
     const auto next = correct(atoms, decay, p + step * forward, axis, 0.5 * step);
     if (!next) return std::nullopt;
     curve.length += (*next - p).norm();

@@ -70,7 +70,7 @@ const Patch& FoldTriangulator::triangulate(const Lattice& lattice, const FoldCel
     wide.lo[k] -= 0.5 * (box_.hi[k] - box_.lo[k]);
     wide.hi[k] += 0.5 * (box_.hi[k] - box_.lo[k]);
   }
-  field_.collect_near(wide, atoms_);
+  field_.collect_near(wide, atoms_, kFineTruncation);
   for (std::size_t i = 0; i < cell.components.size(); ++i) {
     if (!triangulate_component(cell.components[i], loops_of_[i])) return patch_;
   }

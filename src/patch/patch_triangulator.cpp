@@ -271,12 +271,11 @@ std::optional<int> PatchTriangulator::lift(const PlanePoint& at) {
   end[axis] = to_angstrom(hi_[axis]);
   if (!atoms_loaded_) field_.collect_near({to_angstrom(lo_), to_angstrom(hi_)}, atoms_);
   atoms_loaded_ = true;
-  const double decay = field_.decay();
-  const LocalModel model(atoms_, decay, {start, end});
+  const LocalModel model(atoms_, field_.decay(), {start, end});
   const bool inside_lo = is_inside(field_, atoms_, model, start);
   if (inside_lo == is_inside(field_, atoms_, model, end)) return std::nullopt;
   const LineRoot root =
-      refine_root(atoms_, decay, start, axis, start[axis], end[axis], inside_lo, 0.5 * (start[axis] + end[axis]));
+      refine_root(field_, atoms_, start, axis, start[axis], end[axis], inside_lo, 0.5 * (start[axis] + end[axis]));
   p[axis] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), lo_[axis] + 1, hi_[axis] - 1);
   LoopVertex v;
   v.vertex = kLocalVertex + static_cast<std::uint32_t>(patch_.points.size());

@@ -14,7 +14,7 @@ namespace {
 struct RootOnEdge {
   Coord at = 0;
   std::array<float, 3> normal{};
-  std::int8_t side = 0;
+  std::int8_t rise = 0;
 };
 
 /// A brick, and what is joined with that of others.
@@ -71,7 +71,7 @@ class BrickBuilder {
       const auto roots = finder_.find(found.atoms, found.model, axis, lo, hi, ends);
       cell.root_count[axis] = small_count<std::uint8_t>(roots.size(), "roots on an edge");
       for (const EdgeRoot& root : roots) {
-        result.roots.push_back({root.point.position[axis], root.point.normal, root.side});
+        result.roots.push_back({root.point.position[axis], root.point.normal, root.rise});
       }
     }
     result.cells.push_back(cell);
@@ -141,7 +141,7 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
           point.position = corner;
           point.position[axis] = root.at;
           point.normal = root.normal;
-          rises_[brick.first_vertex + n] = root.side;
+          rises_[brick.first_vertex + n] = root.rise;
         }
       }
     }

@@ -106,7 +106,7 @@ class CellStore {
   /// Roots on an edge at the lowest corner of a cell.
   VertexRange edge_roots(const Place& place, int axis) const;
   const SurfacePoint& root(std::uint32_t vertex) const { return roots_[vertex]; }
-  int rise(std::uint32_t vertex) const { return rises_[vertex]; }  ///< EdgeRoot::side
+  int rise(std::uint32_t vertex) const { return rises_[vertex]; }  ///< EdgeRoot::rise
   /// The links in a face.
   std::span<const Link> face_links(const Place& place, int axis) const;
 

@@ -1,6 +1,7 @@
 #include "pipeline/critical_point.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "field/point_value.h"
@@ -10,29 +11,24 @@ namespace gaussmesh {
 CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place) {
   const double width = 1.0 / std::sqrt(2.0 * field.decay());  // of a Gaussian (A)
   const double farthest_step = 0.3 * width;
-  const double difference = 1e-5 * width;  // for the Hessian by central differences
   Box box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = place[k] - farthest_step - difference;
-    box.hi[k] = place[k] + farthest_step + difference;
+    box.lo[k] = place[k] - farthest_step;
+    box.hi[k] = place[k] + farthest_step;
   }
   NearAtoms atoms;
   field.collect_near(box, atoms);
-  const auto gradient = [&](const Vec3& p) {
-    const PointValue v = evaluate(atoms, field.decay(), p);
-    return Eigen::Vector3d(v.gradient[0], v.gradient[1], v.gradient[2]);
-  };
   Vec3 at = place;
   bool converged = false;
   for (int iteration = 0; iteration < 20; ++iteration) {
     Eigen::Matrix3d hessian;
+    Eigen::Vector3d gradient;
     for (int k = 0; k < 3; ++k) {
-      Vec3 before = at, after = at;
-      before[k] -= difference;
-      after[k] += difference;
-      hessian.col(k) = (gradient(after) - gradient(before)) / (2.0 * difference);
+      const LineValue along = evaluate_along(atoms, field.decay(), at, k);
+      hessian.col(k) = Eigen::Vector3d::Map(along.gradient_slope.data());
+      gradient = Eigen::Vector3d::Map(along.point.gradient.data());
     }
-    const Eigen::Vector3d step = -hessian.fullPivLu().solve(gradient(at));
+    const Eigen::Vector3d step = -hessian.fullPivLu().solve(gradient);
     double farthest = 0.0;
     Vec3 next = at;
     for (int k = 0; k < 3; ++k) {
@@ -45,7 +41,6 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
       break;
     }
     at = next;
-    // The differences in the Hessian leave it a relative error of some 1e-6, so that late steps fall by that factor.
     converged = step.norm() < 1e-9 * width;
     if (step.norm() < 1e-12 * width) break;
   }

@@ -22,8 +22,6 @@ class LoopCollector {
   /// @throws LatticeDegenerate if curves do not close
   std::span<const Loop> collect(const CellKey& key, std::uint32_t hint, unsigned empty_faces = 0);
 
-  /// The links that the loops of the last call are made of.
-
  private:
   void collect_links(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);
   void collect_parts(int axis, const FineIndex& lo, int level, std::uint32_t hint, bool high_side);

@@ -85,10 +85,10 @@ void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
   }
 }
 
-void describe_trace(const TraceResult& trace, double cell_size, MeshReport& report) {
+void describe_trace(const TraceResult& trace, MeshReport& report) {
   report.boxes.clear();  // of an attempt before
   for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
-    report.boxes.push_back({cell_size * std::ldexp(1.0, -static_cast<int>(i)), trace.boxes_by_level[i]});
+    report.boxes.push_back({trace.cell_size * std::ldexp(1.0, -static_cast<int>(i)), trace.boxes_by_level[i]});
   }
   report.smallest_box = trace.smallest_box;
   report.cells = trace.cells;
@@ -137,8 +137,9 @@ std::string critical_message(const std::vector<CriticalPlace>& places, double is
 }
 
 /// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
-TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, const TraceDemands& demands,
-                         int threads, Stopwatch& watch, double& isovalue_used) {
+TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
+                         double& isovalue_used) {
+  const TraceDemands demands{options.spacing, options.improve};
   for (double change = 1e-9; change < 1e-2; change *= 4.0) {
     for (const double sign : {-1.0, 1.0}) {
       isovalue_used = options.isovalue * (1.0 + sign * change);
@@ -146,13 +147,14 @@ TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& opti
       try {
         TraceResult trace =
             trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
-        if (trace.uncertified.empty()) return trace;
+        if (trace.uncertified.empty() && !trace.surface.mesh.triangles.empty()) return trace;
       } catch (const LatticeDegenerate&) {
         continue;  // no lattice fits this level; the next one may do
       }
     }
   }
-  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue) + " can be certified");
+  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue, 15) +
+                        " can be certified");
 }
 
 /// V - F / 2, which is the Euler number of a closed mesh.
@@ -213,13 +215,17 @@ class SurfaceMesher {
   /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is finer
   /// than they are cannot always be mended, but those of a finer trace can.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
-    constexpr int kLevels[] = {3, 5};  // one after the other
+    constexpr int kLevels[] = {3, 5};   // one after the other
+    constexpr double kMostThin = 0.02;  // of the vertices; more are left where no triangles are small enough
     for (;;) {
-      std::vector<Vec3> thin = improve(trace(), targets, Guarding::kCloseSheets);
-      if (!is_good()) thin = improve(trace(), targets, Guarding::kEverywhere);
       const int before = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
       const int* level = std::upper_bound(std::begin(kLevels), std::end(kLevels), before);
-      if (!is_good() || thin.empty() || level == std::end(kLevels)) return;
+      std::vector<Vec3> thin = improve(trace(), targets, Guarding::kCloseSheets);
+      if (!is_good()) thin = improve(trace(), targets, Guarding::kEverywhere);
+      const bool is_finer = before == 0 || !demands_.fine_places.empty();
+      const bool are_few =
+          static_cast<double>(thin.size()) <= kMostThin * static_cast<double>(result_.mesh.vertices.size());
+      if (!is_good() || thin.empty() || !are_few || !is_finer || level == std::end(kLevels)) return;
       for (const Vec3& place : thin) demands_.fine_places.push_back({place, *level});
     }
   }
@@ -229,26 +235,42 @@ class SurfaceMesher {
   SurfaceMesh trace() {
     take_mesh({});  // that of an attempt before makes room
     MeshReport& report = result_.report;
-    TraceResult trace;
-    try {
-      trace = trace_surface(field_, demands_, threads_, [&](const std::string& stage) { watch_.finished(stage); });
-      report.certified = trace.uncertified.empty();
-      if (!report.certified) {
-        report.critical = critical_places(field_, trace, options_.isovalue);
-        if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
-        if (!options_.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options_.isovalue));
-        trace = trace_beside(atoms_, options_, demands_, threads_, watch_, report.isovalue_used);
-      }
-    } catch (const LatticeDegenerate& degenerate) {
-      throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+    TraceResult trace = trace_at_level();
+    report.certified = trace.uncertified.empty();
+    if (!report.certified) {
+      report.critical = critical_places(field_, trace, options_.isovalue);
+      if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
+      if (!options_.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options_.isovalue));
+      trace = trace_beside(atoms_, options_, threads_, watch_, report.isovalue_used);
     }
     give_back_memory();  // cells, roots and curves, most of what there is up to here
-    describe_trace(trace, options_.spacing, report);
+    describe_trace(trace, report);
     if (trace.surface.mesh.triangles.empty()) {
-      throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue) +
+      throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue, 15) +
                             " everywhere; choose a smaller c");
     }
     return std::move(trace.surface);
+  }
+
+  /// What is demanded beyond the spacing is left out where that cannot be traced: the lattice of smaller cells may be
+  /// degenerate where that of the others is not. @throws CannotMeshError
+  TraceResult trace_at_level() {
+    for (;;) {
+      try {
+        TraceResult trace =
+            trace_surface(field_, demands_, threads_, [&](const std::string& stage) { watch_.finished(stage); });
+        if (trace.uncertified.empty() || !demand_less()) return trace;
+      } catch (const LatticeDegenerate& degenerate) {
+        if (!demand_less()) throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+      }
+    }
+  }
+
+  /// @return whether there was anything to leave out
+  bool demand_less() {
+    if (demands_.fine_places.empty()) return std::exchange(demands_.for_improvement, false);
+    demands_.fine_places.clear();
+    return true;
   }
 
   /// Improves a traced mesh and has it judged. @return the corners of triangles with small angles that are left

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <span>
 
 #include "core/lattice_degenerate.h"
 #include "gaussmesh/error.h"
@@ -31,6 +33,7 @@ void add_box_counts(const CellStore& store, const Lattice& lattice, TraceResult&
   for (const Brick& brick : store.bricks()) result.cells += brick.cells.size();
   while (!result.boxes_by_level.empty() && result.boxes_by_level.back() == 0) result.boxes_by_level.pop_back();
   const int halvings = static_cast<int>(result.boxes_by_level.size()) - 1;
+  result.cell_size = lattice.cell_size();
   result.smallest_box = lattice.cell_size() * std::ldexp(1.0, -std::max(0, halvings));
 }
 
@@ -89,7 +92,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, const T
   throw InternalError("cells were split again and again without an embedded triangulation");
 }
 
-/// Whether a degenerate place is so for every lattice: next to a critical point with |log(phi / c)| this small the
+/// Whether a place is degenerate on every lattice: next to a critical point with |log(phi / c)| this small the
 /// surface comes within some 0.001 A of itself, and its slope falls below a thousandth of what it is elsewhere. Roots
 /// and signs that double precision cannot tell are then the rule, and not a chance of the lattice.
 bool is_near_critical(const GaussianField& field, const Vec3& place) {
@@ -102,18 +105,23 @@ bool is_near_critical(const GaussianField& field, const Vec3& place) {
 
 TraceResult trace_surface(const GaussianField& field, const TraceDemands& demands, int threads,
                           const StageClock& finished) {
-  for (const Vec3& offset : kOffsets) {
+  const auto trace_with = [&](const Vec3& offset) {
+    return trace_on(field, make_lattice(demands.spacing, offset), demands, threads, finished);
+  };
+  for (const Vec3& offset : std::span(kOffsets).first(std::size(kOffsets) - 1)) {
     try {
-      return trace_on(field, make_lattice(demands.spacing, offset), demands, threads, finished);
-    } catch (const LatticeDegenerate& degenerate) {
-      if (&offset != std::end(kOffsets) - 1) continue;
-      if (!is_near_critical(field, degenerate.place)) throw;
-      TraceResult result;
-      result.uncertified.push_back({degenerate.place, 0.0});
-      return result;
+      return trace_with(offset);
+    } catch (const LatticeDegenerate&) {  // the next one may do
     }
   }
-  throw InternalError("no lattice was tried");
+  try {
+    return trace_with(std::end(kOffsets)[-1]);
+  } catch (const LatticeDegenerate& degenerate) {
+    if (!is_near_critical(field, degenerate.place)) throw;
+    TraceResult result;
+    result.uncertified.push_back({degenerate.place, 0.0});
+    return result;
+  }
 }
 
 }  // namespace gaussmesh

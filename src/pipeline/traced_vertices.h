@@ -16,14 +16,14 @@ class TracedVertices {
   const SurfacePoint& operator[](std::uint32_t vertex) const {
     return vertex < first_ ? store_.root(vertex) : points_[vertex - first_];
   }
-  /// EdgeRoot::side of a root.
+  /// EdgeRoot::rise of a root.
   int rise(std::uint32_t vertex) const { return vertex < first_ ? store_.rise(vertex) : rises_[vertex - first_]; }
 
   VertexRange add(std::span<const EdgeRoot> roots) {
     const VertexRange range{next(), static_cast<std::uint32_t>(roots.size())};
     for (const EdgeRoot& root : roots) {
       points_.push_back(root.point);
-      rises_.push_back(root.side);
+      rises_.push_back(root.rise);
     }
     return range;
   }

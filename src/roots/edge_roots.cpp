@@ -60,15 +60,8 @@ Side proven_side(const GaussianField& field, const NearAtoms& atoms, const LazyM
   return side;
 }
 
-}  // namespace
-
-bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point) {
-  const Side side = proven_side(field, atoms, model, point);
-  if (side == Side::kUnknown) throw LatticeDegenerate(point);
-  return side == Side::kInside;
-}
-
-LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
+/// The root of the sum over `atoms`, as refine_root().
+LineRoot root_of_sum(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
                      bool inside_a, double guess) {
   const double range = atoms.size() > 0 ? 2.0 * decay * (atoms.hi[axis] - atoms.lo[axis]) : 0.0;
   double x = guess > a && guess < b ? guess : 0.5 * (a + b);
@@ -107,6 +100,27 @@ LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, in
     x = next;
   }
   throw InternalError("a bracketed root was not found in 200 steps");
+}
+
+}  // namespace
+
+bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point) {
+  const Side side = proven_side(field, atoms, model, point);
+  if (side == Side::kUnknown) throw LatticeDegenerate(point);
+  return side == Side::kInside;
+}
+
+LineRoot refine_root(const GaussianField& field, const NearAtoms& atoms, const Vec3& start, int axis, double a,
+                     double b, bool inside_a, double guess) {
+  const LineRoot root = root_of_sum(atoms, field.decay(), start, axis, a, b, inside_a, guess);
+  const Vec3& g = root.gradient;
+  if (!is_tail_felt(atoms, std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]))) return root;
+  Box line{start, start};
+  line.lo[axis] = a;
+  line.hi[axis] = b;
+  NearAtoms more;
+  field.collect_near(line, more, kFineTruncation);
+  return root_of_sum(more, field.decay(), start, axis, a, b, inside_a, root.position);
 }
 
 bool EdgeRootFinder::is_free(const LazyModel& model, int axis, const CoordPoint& lo, Coord hi,
@@ -197,12 +211,12 @@ void EdgeRootFinder::refine(const LazyModel& model, const Segment& s, double gue
     guess = cubic_zero(middle, view.middle_value(), view.middle_gradient()[axis_], view.middle_curvature(axis_),
                        view.middle_third(axis_));
   }
-  const LineRoot root = refine_root(*atoms_, field_.decay(), base_, axis_, s.a, s.b, s.inside_a, guess);
+  const LineRoot root = refine_root(field_, *atoms_, base_, axis_, s.a, s.b, s.inside_a, guess);
   EdgeRoot result;
   result.point.position = lo_;
   result.point.position[axis_] = snap(model, s, root);
   result.point.normal = outward_normal(root.gradient);
-  result.side = s.inside_a ? -1 : 1;
+  result.rise = s.inside_a ? -1 : 1;
   roots_.push_back(result);
 }
 

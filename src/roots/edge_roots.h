@@ -23,7 +23,7 @@ struct SurfacePoint {
 /// A place where a lattice edge goes through the surface.
 struct EdgeRoot {
   SurfacePoint point;
-  std::int8_t side = 0;  ///< +1: enters the molecule along the edge; -1: leaves it
+  std::int8_t rise = 0;  ///< +1: enters the molecule along the edge; -1: leaves it
 };
 
 /// A root on a line: its coordinate (A), and grad log phi there.
@@ -94,9 +94,13 @@ class EdgeRootFinder {
 bool is_inside(const GaussianField& field, const NearAtoms& atoms, const LazyModel& model, const Vec3& point);
 
 /// The root of phi = c on the line through `start` along `axis` between coordinates a and b, where phi - c has
-/// opposite signs; good to 1e-10 A. @param inside_a whether phi > c at a
-LineRoot refine_root(const NearAtoms& atoms, double decay, const Vec3& start, int axis, double a, double b,
-                     bool inside_a, double guess);
+/// opposite signs; its distance from the surface is at most some 5e-7 A, also where phi hardly changes. `atoms` were
+/// collected for a box that holds the line between a and b.
+/// @param inside_a  whether phi > c at a
+/// @param guess     near the root, or anything else
+/// Cost: two or three sums over the atoms; more where those left out are felt.
+LineRoot refine_root(const GaussianField& field, const NearAtoms& atoms, const Vec3& start, int axis, double a,
+                     double b, bool inside_a, double guess);
 
 /// -gradient / |gradient|.
 std::array<float, 3> outward_normal(const Vec3& gradient);

@@ -160,7 +160,7 @@ SurfacePoint FaceTracer::solve_on_piece(Piece& piece, double at) {
     piece.last = 0.5 * (start[along] + end[along]);
   }
   const LineRoot root =
-      refine_root(atoms, field_.decay(), start, along, start[along], end[along], piece.lo == Side::kInside, piece.last);
+      refine_root(field_, atoms, start, along, start[along], end[along], piece.lo == Side::kInside, piece.last);
   piece.last = root.position;
   result.position[along] = std::clamp<Coord>(std::llround(root.position * kUnitsPerAngstrom), piece.rect.lo[along] + 1,
                                              piece.rect.hi[along] - 1);

@@ -83,7 +83,9 @@ bool FaceTracer::starts_curve(int side, int rise) {
   return side < 2 ? rise < 0 : rise > 0;
 }
 
-bool FaceTracer::starts_curve(const RectRoot& root) const { return starts_curve(root.side, points_[root.point].rise); }
+bool FaceTracer::starts_curve(const RectRoot& root) const {
+  return starts_curve(root.boundary_side, points_[root.point].rise);
+}
 
 void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots) {
   if (certificate == kFaceEmpty) {
@@ -125,7 +127,7 @@ void FaceTracer::trace_rect(const Rect& rect, FaceCertificate certificate, std::
 /// Whether nobody will ask for points between the roots, which are found along an axis.
 bool FaceTracer::chords_will_do(const Rect& rect, const std::vector<RectRoot>& roots) const {
   const bool is_whole = rect.lo == face_.lo && rect.hi == face_.hi;
-  const bool turns_back = roots.size() == 2 && roots[0].side == roots[1].side;
+  const bool turns_back = roots.size() == 2 && roots[0].boundary_side == roots[1].boundary_side;
   return is_whole && !turns_back && fold_axes_ == 0;
 }
 
@@ -167,7 +169,7 @@ bool FaceTracer::pair_roots(const Rect& rect, const Direction& along, std::vecto
     return over_first ? seen.a : seen.b;
   };
   std::sort(roots.begin(), roots.end(), [&](const RectRoot& r, const RectRoot& s) {
-    return coordinate(r) < coordinate(s) || (coordinate(r) == coordinate(s) && r.side < s.side);
+    return coordinate(r) < coordinate(s) || (coordinate(r) == coordinate(s) && r.boundary_side < s.boundary_side);
   });
   // Rounding along an axis keeps the order but for ties; between axes it does not.
   const Coord closest = along.is_slanted() ? Direction::kSlantParts * kClosestAcross : 0;
@@ -175,7 +177,8 @@ bool FaceTracer::pair_roots(const Rect& rect, const Direction& along, std::vecto
     if (coordinate(roots[i]) - coordinate(roots[i - 1]) <= closest) return false;  // the order is not known
   }
   for (std::size_t i = 0; along.is_slanted() && i < roots.size(); i += 2) {
-    if (roots[i].side == roots[i + 1].side) return false;  // needs a point between them, which is found along an axis
+    if (roots[i].boundary_side == roots[i + 1].boundary_side)
+      return false;  // needs a point between them, which is found along an axis
   }
   for (std::size_t i = 0; i < roots.size(); i += 2) link(rect, roots[i], roots[i + 1], along.axis);
   return true;
@@ -199,7 +202,7 @@ std::vector<FaceTracer::RectRoot> FaceTracer::cut_roots(const NearAtoms& atoms, 
   std::vector<RectRoot> result;
   for (const EdgeRoot& root : finder_.find(atoms, model, edge_axis, lo, hi)) {
     result.push_back({static_cast<int>(points_.size()), 0});
-    points_.push_back({root.point, kLocalVertex, root.side, false, -1, -1});
+    points_.push_back({root.point, kLocalVertex, root.rise, false, -1, -1});
   }
   return result;
 }
@@ -208,7 +211,7 @@ void FaceTracer::split_rect(const Rect& rect, const std::vector<RectRoot>& roots
   const int a = first_axis(axis_), b = second_axis(axis_);
   const bool cut_a = rect.hi[a] - rect.lo[a] > kSmallestRect, cut_b = rect.hi[b] - rect.lo[b] > kSmallestRect;
   if (!cut_a || !cut_b) throw LatticeDegenerate(to_angstrom(rect.lo));
-  // An odd number of half units keeps roots, which are rounded to whole ones, off the cuts.
+  // A root may be rounded onto a cut: its side is then not known, and this lattice will not do.
   const Coord ma = rect.lo[a] + (rect.hi[a] - rect.lo[a]) / 2, mb = rect.lo[b] + (rect.hi[b] - rect.lo[b]) / 2;
   CoordPoint centre = rect.lo;
   centre[a] = ma;
@@ -228,10 +231,13 @@ void FaceTracer::split_rect(const Rect& rect, const std::vector<RectRoot>& roots
     std::vector<RectRoot> sub_roots;
     for (const RectRoot& root : roots) {
       const CoordPoint& p = points_[root.point].point.position;
-      const int along = root.side % 2 == 0 ? a : b;
+      const int along = root.boundary_side % 2 == 0 ? a : b;
       const Coord cut = along == a ? ma : mb;
       if (p[along] == cut) throw LatticeDegenerate(to_angstrom(p));
-      const bool on_side = root.side == 0 ? !high_b : root.side == 1 ? high_a : root.side == 2 ? high_b : !high_a;
+      const bool on_side = root.boundary_side == 0   ? !high_b
+                           : root.boundary_side == 1 ? high_a
+                           : root.boundary_side == 2 ? high_b
+                                                     : !high_a;
       if (on_side && (p[along] > cut) == (along == a ? high_a : high_b)) sub_roots.push_back(root);
     }
     for (RectRoot root : high_a ? right : left) sub_roots.push_back({root.point, high_b ? 0 : 2});

@@ -93,8 +93,8 @@ class FaceTracer {
     double last = 0.0;         ///< coordinate along it of the point found last (A): the next is near
   };
   struct RectRoot {
-    int point;
-    int side;
+    int point;          ///< index into points_
+    int boundary_side;  ///< as in FaceRoot, of the rectangle
   };
   struct Chain {
     int first;

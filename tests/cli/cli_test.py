@@ -251,7 +251,7 @@ class Report(CliTest):
         levels = proof["boxes_per_level"]
         self.assertGreater(sum(level["boxes"] for level in levels), 0)
         smallest = min(level["size_A"] for level in levels if level["boxes"] > 0)
-        self.assertAlmostEqual(smallest / proof["smallest_box_A"], 1.0, delta=0.01)
+        self.assertAlmostEqual(smallest / proof["smallest_box_A"], 1.0, places=12)
         for key in ["cells", "cells_cut_by_folds", "cells_split"]:
             self.assertGreaterEqual(proof[key], 0)
         self.assertEqual(proof["critical_places"], [])

@@ -1,6 +1,9 @@
 // Inputs for which the program once gave a wrong answer, or none.
+#include <filesystem>
+
 #include "catch2.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/read_atoms.h"
 #include "support/meshing.h"
 
 using namespace gaussmesh;
@@ -41,4 +44,37 @@ TEST_CASE("cells that are too coarse are not taken for a critical level") {
   const MeshOptions o = options(156.27414323136, 8739.037766798241, 19.176228971477563);
   CHECK_THROWS_AS(mesh_surface(atoms, o), CannotMeshError);
   CHECK_THROWS_WITH(mesh_surface(atoms, o), ContainsSubstring("choose a smaller spacing"));
+}
+
+TEST_CASE("where phi hardly changes vertices are on the surface of all atoms, not of those in a list") {
+  // Next to the greatest value of phi over a sheet of atoms the slope is so small that 1e-10 left out is felt: without
+  // these vertices were up to 2e-6 A off.
+  std::vector<Atom> sheet;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 12; ++j) sheet.push_back({0.7 * i, 0.7 * j, 0.027, 1.2, 0});
+  }
+  const MeshResult traced = mesh_surface(sheet, options(0.6, 25.3528305790182, 0.5));
+  CHECK(traced.report.certified);
+  CHECK(traced.report.vertex_distance_max < 1e-6);
+  // Next to a saddle of a molecule.
+  const std::vector<Atom> peptide = read_atoms(std::filesystem::path(GAUSSMESH_DATA) / "1a1p.pqr").atoms;
+  const MeshResult mended = mesh_surface(peptide, improved(0.6, 2.1853182796052959, 0.8));
+  CHECK(mended.report.certified);
+  CHECK(mended.report.vertex_distance_max < 1e-6);
+}
+
+TEST_CASE("a level beside one that cannot be certified has a surface") {
+  const std::vector<Atom> atoms = {{0, 0, 0, 1.5, 0}, {1.8257418583505538, 0, 0, 1.5, 0}};
+  MeshOptions o = improved(0.6, 4.6792937024481933, 4.0);  // 3e-10 below the greatest value of phi
+  o.allow_uncertified = true;
+  const MeshResult result = mesh_surface(atoms, o);
+  CHECK_FALSE(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}});
+}
+
+TEST_CASE("where the finer cells for improvement cannot be traced the others are") {
+  const std::vector<Atom> atoms = {{0, 0, 0, 1.5, 0}, {1.8257418583505538, 0, 0, 1.5, 0}};
+  const MeshResult result = mesh_surface(atoms, improved(0.6, 4.6792937033840518, 0.3));
+  CHECK(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}});
 }

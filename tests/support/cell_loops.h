@@ -29,7 +29,7 @@ inline std::vector<Loop> cell_loops(const GaussianField& field, const Lattice& l
     const auto [it, is_new] = edges.try_emplace({start, axis});
     if (is_new) {
       for (const EdgeRoot& root : finder.find(near, model, axis, start, hi[axis])) {
-        it->second.push_back({static_cast<std::uint32_t>(points.size()), root.point.position, 0, root.side});
+        it->second.push_back({static_cast<std::uint32_t>(points.size()), root.point.position, 0, root.rise});
         points.push_back(root.point);
       }
     }

@@ -66,7 +66,7 @@ BlockMesh slab(bool is_lower_in_block) {
   std::vector<Triangle> triangles = square_triangles(0, true);
   const std::vector<Triangle> lower = square_triangles(kSide * kSide, false);
   if (is_lower_in_block) triangles.insert(triangles.end(), lower.begin(), lower.end());
-  BlockMesh mesh{{}, HalfEdgeMesh(std::move(triangles), 2 * kSide * kSide), {}, {}, {}, kBox};
+  BlockMesh mesh{{}, HalfEdgeMesh(triangles, 2 * kSide * kSide), {}, {}, {}, kBox};
   if (!is_lower_in_block) mesh.fixed = lower;
   add_square(mesh, 0.3, kUp, 0.01);
   add_square(mesh, 0.0, kDown, 0.01);
@@ -74,7 +74,8 @@ BlockMesh slab(bool is_lower_in_block) {
 }
 
 BlockMesh tetrahedron() {
-  BlockMesh mesh{{}, HalfEdgeMesh({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4), {}, {}, {}, kBox};
+  BlockMesh mesh{{},  HalfEdgeMesh(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4), {}, {}, {},
+                 kBox};
   const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.9, 0}, {0.5, 0.3, 0.8}};
   const Vec3 middle{0.5, 0.3, 0.2};
   for (const Vec3& p : corners) {

@@ -66,7 +66,7 @@ TEST_CASE("a tetrahedron has no edge to flip or to collapse") {
 TEST_CASE("an edge whose ends have a third neighbour in common is not collapsed") {
   // A triangle of edges 0-1-2 round the waist of a double pyramid with apexes 3 and 4: no waist edge may go, since
   // the third corner of the waist is a neighbour of both ends without a triangle there.
-  const HalfEdgeMesh m({{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}}, 5);
+  const HalfEdgeMesh m(std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}}, 5);
   for (Index h = 0; h < m.half_edges(); ++h) {
     if (m.from(h) < 3 && m.to(h) < 3) CHECK_FALSE(m.can_collapse(h));
   }
@@ -114,7 +114,7 @@ TEST_CASE("ten thousand operations at random leave a closed sphere") {
 
 TEST_CASE("at a boundary nothing is changed that is not all there") {
   // A hexagon round vertex 0: only 0 is inner.
-  HalfEdgeMesh m({{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}}, 7);
+  HalfEdgeMesh m(std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}}, 7);
   CHECK(m.is_inner(0));
   for (Index v = 1; v < 7; ++v) CHECK_FALSE(m.is_inner(v));
   for (Index h = 0; h < m.half_edges(); ++h) {

@@ -43,7 +43,7 @@ void check_positions(const std::vector<EdgeRoot>& roots, int axis, const std::ve
 void check_sides(const std::vector<EdgeRoot>& roots, bool starts_inside) {
   int side = starts_inside ? -1 : 1;
   for (const EdgeRoot& root : roots) {
-    CHECK(int{root.side} == side);
+    CHECK(int{root.rise} == side);
     side = -side;
   }
 }
@@ -233,7 +233,7 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
         const double slope = static_cast<double>(std::abs(gradient[axis]));
         const double distance = static_cast<double>(std::abs(exact.psi(p))) / slope;
         CHECK(distance < limit + evaluate(near, 0.6, p).error / slope);
-        CHECK((static_cast<double>(gradient[axis]) > 0.0) == (root.side > 0));
+        CHECK((static_cast<double>(gradient[axis]) > 0.0) == (root.rise > 0));
         ++found;
       }
     }
@@ -327,9 +327,11 @@ TEST_CASE("a point exactly on the surface cannot be told: that is reported, not 
 }
 
 TEST_CASE("refine_root finds the root from any guess in the bracket") {
-  NearAtoms near = list_of({{0.0}, {0.0}, {0.0}, {0.6 * 4.0}});
+  const GaussianField field({{0, 0, 0, 2.0, 0}}, 0.6, 1.0);
+  NearAtoms near;
+  field.collect_near({{0, 0, 0}, {3, 0, 0}}, near);
   for (const double guess : {0.51, 1.0, 1.9, 1.999999, 2.4, -5.0, 7.0, std::nan("")}) {
-    const LineRoot root = refine_root(near, 0.6, {0, 0, 0}, 0, 0.5, 2.5, true, guess);
+    const LineRoot root = refine_root(field, near, {0, 0, 0}, 0, 0.5, 2.5, true, guess);
     CHECK(std::abs(root.position - 2.0) < 1e-10);
     CHECK(root.gradient[0] == Approx(-2.4).epsilon(1e-4));
   }

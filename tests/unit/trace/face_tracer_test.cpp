@@ -61,7 +61,7 @@ Traced trace(const GaussianField& field, const Face& face, unsigned fold_axes = 
   for (int side = 0; side < 4; ++side) {
     const auto [lo, axis] = edges[side];
     for (const EdgeRoot& root : finder.find(near, model, axis, lo, face.hi[axis])) {
-      result.roots.push_back({static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.side});
+      result.roots.push_back({static_cast<std::uint32_t>(result.roots.size()), root.point.position, side, root.rise});
     }
   }
   FaceTracer tracer(field, kLattice);
