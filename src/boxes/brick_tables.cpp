@@ -7,6 +7,7 @@
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
+#include "core/vectors.h"
 
 namespace gaussmesh {
 namespace {
@@ -99,8 +100,6 @@ void bound_row(const double* psi, double loss, double* largest, double* least) {
     }
   }
 }
-
-double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - p, p - hi)); }
 
 }  // namespace
 

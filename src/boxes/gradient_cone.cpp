@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
+
 namespace gaussmesh {
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void add_to(Vec3& sum, const Vec3& v) {
   for (int k = 0; k < 3; ++k) sum[k] += v[k];

@@ -246,9 +246,9 @@ GAUSSMESH_SIMD_INLINE Ranges<Real> slope_of(const LocalModelTerms& m, const Loca
   const Real rounding = 16.0 * m.relative_error * 2.0 * d *
                         along.sum_of([&](int k) -> Real { return size_of<Real>(centre(k)) + q.s[k]; });
   const double omitted = along.sum_of([&](int) { return omitted_slope(m); }) * m.growth;
-  const Real spread = linear + 0.5 * quadratic + cubic + rest + rounding + omitted;
+  const Real radius = linear + 0.5 * quadratic + cubic + rest + rounding + omitted;
   const Ranges<Real> one_sided = one_sided_slope(m, q, along);
-  return {larger_of<Real>(q0 - spread, one_sided.lo), smaller_of<Real>(q0 + spread, one_sided.hi)};
+  return {larger_of<Real>(q0 - radius, one_sided.lo), smaller_of<Real>(q0 + radius, one_sided.hi)};
 }
 
 /// Whether the model's value in the middle is less than what it changes by over half the part.

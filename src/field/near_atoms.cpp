@@ -5,12 +5,10 @@
 
 #include "core/simd.h"
 #include "core/vector_exp.h"
+#include "core/vectors.h"
 
 namespace gaussmesh {
 namespace {
-
-/// Distance of a coordinate from an interval, zero inside.
-inline double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - p, p - hi)); }
 
 /// Exponents are differences of numbers up to 1e12 (the limits of coordinates and radii): a slack for their rounding.
 inline double exponent_slack(double w, double decay_times_sq) { return 1e-15 * (std::abs(w) + decay_times_sq) + 1e-12; }

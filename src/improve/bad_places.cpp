@@ -59,12 +59,12 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
                                               for (std::size_t number = first; number < last; ++number) {
                                                 const Triangle& t = mesh.triangles[number];
                                                 if (is_at_least(mesh, t, good)) continue;
-                                                const bool is_thin =
+                                                const bool has_small_angle =
                                                     triangle_quality(mesh, t[0], t[1], t[2]).min_sine < kLeastSine;
                                                 const Vec3 normal = area_normal(mesh, t);
                                                 const double least = kHalfASharpTurn * length(normal);
                                                 for (const std::uint32_t v : t) {
-                                                  if (is_thin) list.push_back({v, false});
+                                                  if (has_small_angle) list.push_back({v, false});
                                                   if (dot(normal, mesh.normal[v]) < least) list.push_back({v, true});
                                                 }
                                               }

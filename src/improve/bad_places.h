@@ -8,9 +8,9 @@
 
 namespace gaussmesh {
 
-/// The smallest angle that triangles are to have (degrees); a little above the 30 that are wanted.
-inline constexpr double kLeastAngle = 31.0;
-inline const double kLeastSine = std::sin(kLeastAngle * std::numbers::pi / 180.0);
+/// The smallest angle that triangles are to have; a little above the 30 degrees that are wanted.
+inline constexpr double kLeastAngleDeg = 31.0;
+inline const double kLeastSine = std::sin(kLeastAngleDeg * std::numbers::pi / 180.0);
 
 /// Corners of triangles with smaller angles, and of neighbours that turn_sharply() against each other, in rising order.
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.

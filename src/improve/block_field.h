@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/vectors.h"
 #include "field/gaussian_field.h"
 #include "field/point_value.h"
-#include "improve/vectors.h"
 
 namespace gaussmesh {
 

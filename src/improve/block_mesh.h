@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/vectors.h"
 #include "improve/block_field.h"
 #include "improve/half_edge_mesh.h"
-#include "improve/vectors.h"
 
 namespace gaussmesh {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "improve/vectors.h"
+#include "core/vectors.h"
 
 namespace gaussmesh {
 

@@ -20,6 +20,9 @@ double wanted_size(const BlockMesh& m, Index h) {
 /// A flip for the valences' sake may leave angles down to 20 degrees; relaxation opens them again.
 constexpr double kLeastSineForValence = 0.34;
 
+/// The same of collapses, to 12 degrees.
+constexpr double kLeastSineAfterCollapse = 0.2;
+
 /// Where triangles lead over a rim of the surface, from one side to the other, splits lead out of that; but the
 /// first parts may be turned by more than the whole was. Then they are well-shaped, or no worse than the whole was, and
 /// kept from their neighbours by exact signs.
@@ -93,7 +96,7 @@ bool try_collapse(BlockMesh& mesh, SheetGuard& guard, std::uint32_t h, double lo
     guarded = guarded || SheetGuard::is_guarded(mesh, {v, a, b});
   });
   if (!turn_is_allowed(before, after)) return false;
-  if (after.min_sine < std::min(0.2, before.min_sine)) return false;
+  if (after.min_sine < std::min(kLeastSineAfterCollapse, before.min_sine)) return false;
   if (guarded) {
     const auto ignored = [&](Index other) {
       const Triangle w = c.triangle(other);

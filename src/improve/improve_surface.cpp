@@ -39,11 +39,15 @@ constexpr int kRepairRounds = 3;
 /// What one sweep does in each block. The planes between the blocks lie elsewhere in each of four sweeps that
 /// follow each other: a place near planes of all three axes in three of them is free in the fourth.
 struct Sweep {
-  int rounds = 0;  ///< of splits, collapses, flips and relaxation
+  int rounds = 0;       ///< of splits, collapses, flips and relaxation
+  double effort = 0.0;  ///< how long it takes, for those who wait: the first has the most to do
   bool repairs = false;
   bool settles = false;  ///< leaves the vertices exactly on the surface
 };
-constexpr Sweep kSweeps[] = {{3, false, false}, {3, false, false}, {3, true, false}, {2, true, true}};
+constexpr Sweep kSweeps[] = {{.rounds = 3, .effort = 9.0},
+                             {.rounds = 3, .effort = 3.0},
+                             {.rounds = 3, .effort = 3.0, .repairs = true},
+                             {.rounds = 2, .effort = 2.0, .repairs = true, .settles = true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
 /// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
@@ -58,9 +62,7 @@ constexpr double kManyBad = 0.02;
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
-/// How long it takes, for those who wait: the first has the most to do, those of boxes touch little.
-constexpr double effort(const Sweep& sweep) { return sweep.rounds * (&sweep == &kSweeps[0] ? 3 : 1); }
-constexpr double kEffortInBoxes = 1.0;
+constexpr double kEffortInBoxes = 1.0;  ///< they touch little
 
 WholeMesh start_with(SurfaceMesh traced, double spacing) {
   WholeMesh mesh;
@@ -152,7 +154,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
   refine(mesh, find_sharp_edges(mesh));
-  if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+  if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
 }
 
 /// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
@@ -171,7 +173,7 @@ std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_fie
     SheetGuard guard(mesh, guarding);
     cut_to_size(mesh, guard, field, Accuracy::kExact);
     run_round(mesh, guard, field, Accuracy::kExact);
-    repair_triangles(mesh, guard, field, kLeastAngle, kRepairRounds);
+    repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
   }
 }
 
@@ -185,7 +187,7 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
   SizeTargets now = targets;
   now.largest = targets.spacing;
   double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
-  for (const Sweep& sweep : kSweeps) all += effort(sweep);
+  for (const Sweep& sweep : kSweeps) all += sweep.effort;
   const auto run = [&](MeshBlocks blocks, double effort, const auto& work) {
     std::atomic<int> blocks_done = 0;
     const std::vector<std::uint32_t> order = blocks.largest_first();
@@ -202,7 +204,7 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
   int number = 0;
   for (const Sweep& sweep : kSweeps) {
     const double shift = edge * number++ / kSweepsWithOtherPlanes;
-    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), effort(sweep),
+    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), sweep.effort,
                [&](std::size_t, BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
     if (number <= kSweepsForLargest) {
       const double wish = now.largest * targets.spacing / mean_edge(mesh, threads);

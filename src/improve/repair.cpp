@@ -14,6 +14,7 @@ class TriangleRepair {
 
   bool is_bad(Index t) const { return mesh_.connectivity.has_triangle(t) && score(t) < 1.0; }
 
+  /// What is tried on one triangle, until it is no longer bad.
   void repair(Index t) {
     for (int i = 0; i < 3 && is_bad(t); ++i) flip_if_better(3 * t + i);
     if (is_bad(t)) collapse_shortest(t);
@@ -22,6 +23,14 @@ class TriangleRepair {
   }
 
  private:
+  // Lengths are in wanted edges. A collapse or a split is meant for edges that are short or long anyway, so that the next
+  // round does not take it back.
+  static constexpr double kShort = 0.8, kLong = 1.2, kLongestAfterCollapse = 1.7;
+  static constexpr double kLeastScoreAfterCollapse = 0.8;  ///< others may come out a little bad, to be mended in turn
+  static constexpr double kFirstReach = 0.15;              ///< of the search for a better place
+  static constexpr int kReachHalvings = 5, kDirections = 8;
+  static constexpr double kLeastGain = 1.001;  ///< less is not worth another round of the search
+
   /// Below 1 for a triangle to be mended.
   double score(const TriangleQuality& q) const {
     return std::min(q.min_sine / least_sine_, (1.0 + q.normal_cosine) / (1.0 + kTurnLimit));
@@ -57,11 +66,11 @@ class TriangleRepair {
       if (edge(h) < edge(shortest)) shortest = h;
     }
     const double size = double(mesh_.size[c.from(shortest)]);
-    if (is_boundary(shortest) || edge(shortest) > 0.8 * size) return;
+    if (is_boundary(shortest) || edge(shortest) > kShort * size) return;
     const double before = score(t);
     for (const Index h : {shortest, c.twin(shortest)}) {
-      if (c.is_inner(c.from(h)) && collapsed_score(h) > std::max(before, 0.8) &&
-          try_collapse(mesh_, guard_, h, 1.7 * size)) {
+      if (c.is_inner(c.from(h)) && collapsed_score(h) > std::max(before, kLeastScoreAfterCollapse) &&
+          try_collapse(mesh_, guard_, h, kLongestAfterCollapse * size)) {
         return;
       }
     }
@@ -73,7 +82,7 @@ class TriangleRepair {
     for (Index h = 3 * t; h < 3 * t + 3; ++h) {
       if (edge(h) > edge(longest)) longest = h;
     }
-    if (is_boundary(longest) || edge(longest) < 1.2 * double(mesh_.size[c.from(longest)])) return;
+    if (is_boundary(longest) || edge(longest) < kLong * double(mesh_.size[c.from(longest)])) return;
     const Vec3 a = mesh_.at[c.from(longest)], b = mesh_.at[c.to(longest)];
     const auto middle = field_.project(0.5 * (a + b), 0.5 * length(b - a));
     const Index m = c.vertices();
@@ -88,15 +97,15 @@ class TriangleRepair {
   /// Pattern search for the place along the surface that gives the star of v its largest smallest angle.
   void move_corner(Index v) {
     if (!mesh_.connectivity.is_inner(v)) return;
-    double reach = 0.15 * double(mesh_.size[v]);
-    for (int halving = 0; halving < 5; ++halving, reach *= 0.5) {
+    double reach = kFirstReach * double(mesh_.size[v]);
+    for (int halving = 0; halving < kReachHalvings; ++halving, reach *= 0.5) {
       for (bool again = true; again;) {
         again = false;
         const Vec3 n = as_vector(mesh_.normal[v]), p = mesh_.at[v];
         const Vec3 other = std::abs(n[0]) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
         const Vec3 u = 1.0 / length(cross(n, other)) * cross(n, other), w = cross(n, u);
-        for (int direction = 0; direction < 8 && !again; ++direction) {
-          const double angle = direction * std::numbers::pi / 4.0;
+        for (int direction = 0; direction < kDirections && !again; ++direction) {
+          const double angle = direction * 2.0 * std::numbers::pi / kDirections;
           const auto place = field_.project(p + reach * (std::cos(angle) * u + std::sin(angle) * w), 2.0 * reach);
           again = place && take_if_better(v, *place);
         }
@@ -110,7 +119,7 @@ class TriangleRepair {
     mesh_.put(v, place);
     const double after = score(star_quality(mesh_, v));
     mesh_.put(v, old);
-    return after > 1.001 * before && try_move(mesh_, guard_, v, place, 0.0);
+    return after > kLeastGain * before && try_move(mesh_, guard_, v, place, 0.0);
   }
 
   BlockMesh& mesh_;

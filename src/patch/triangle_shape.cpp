@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -10,15 +12,9 @@ Vec3 difference(const CoordPoint& p, const CoordPoint& q) {
   return {static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]), static_cast<double>(p[2] - q[2])};
 }
 
-double dot(const Vec3& u, const Vec3& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
-
-Vec3 cross(const Vec3& u, const Vec3& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 /// Of vectors of any length.
-double cosine_between(const Vec3& n, const std::array<float, 3>& direction) {
-  const Vec3 d{double(direction[0]), double(direction[1]), double(direction[2])};
+double cosine_between(const Vec3& n, const Normal& direction) {
+  const Vec3 d = as_vector(direction);
   return dot(n, d) / (std::sqrt(dot(n, n) * dot(d, d)) + 1e-300);
 }
 

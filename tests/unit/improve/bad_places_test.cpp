@@ -23,7 +23,7 @@ std::vector<std::uint32_t> bad_vertices_by_pairs(const WholeMesh& mesh) {
   for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
     const Triangle& t = mesh.triangles[n];
     const double sine = triangle_quality(mesh, t[0], t[1], t[2]).min_sine;
-    if (sine < std::sin(kLeastAngle / 180.0 * std::numbers::pi)) bad.insert(t.begin(), t.end());
+    if (sine < std::sin(kLeastAngleDeg / 180.0 * std::numbers::pi)) bad.insert(t.begin(), t.end());
     for (int i = 0; i < 3; ++i) side[{t[i], t[(i + 1) % 3]}] = n;
   }
   for (const auto& [ends, n] : side) {

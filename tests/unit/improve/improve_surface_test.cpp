@@ -5,9 +5,9 @@
 #include <map>
 
 #include "catch2.h"
+#include "core/vectors.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
-#include "improve/vectors.h"
 #include "support/meshing.h"
 
 using namespace gaussmesh;

@@ -1,12 +1,16 @@
 // Arithmetic of points and directions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/lattice.h"
 
 namespace gaussmesh {
+
+/// Distance of a coordinate from an interval, zero inside.
+inline double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - p, p - hi)); }
 
 using Normal = std::array<float, 3>;  ///< a unit vector, as it is kept
 
