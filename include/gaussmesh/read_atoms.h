@@ -95,17 +95,18 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 
 /// Reads PDB text that is already in memory.
 ///
-/// ATOM and HETATM records are read by their columns. The first model is taken, of each residue the alternate
-/// location that comes first, and no water (HOH, WAT, DOD, ...); warnings count what is left out. Hydrogens are
-/// taken if they are there; none are added. Charges are 0. Radii come from a set:
+/// ATOM and HETATM records, in any case, are read by their columns. They may be indented, and their serial number may
+/// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
+/// model is taken, of each residue the alternate location that comes first, and no water (HOH, WAT, DOD, ...); warnings
+/// count what is left out. Hydrogens are taken if they are there; none are added. Charges are 0. Radii come from a set:
 ///
 /// - bondi: by element; Bondi, J. Phys. Chem. 68:441 (1964)
 /// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)
 /// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
 ///
 /// @throws OptionError  if there is no such set
-/// @throws InputError   if a coordinate is no number or out of range, the set has no radius for an atom, or there is
-///                      none
+/// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, the set has
+///                      no radius for an atom, or there is none
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii);
 
 /// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does.

@@ -1,7 +1,11 @@
-// The PDB reader: ATOM and HETATM records by their columns.
+// The PDB reader: ATOM and HETATM records by their columns. What a line is, pqr_record.h tells.
 //
 // https://www.wwpdb.org/documentation/file-format-content/format33/sect9.html#ATOM
 
+#include <algorithm>
+#include <array>
+
+#include "atoms/pqr_record.h"
 #include "atoms/structure_builder.h"
 #include "gaussmesh/error.h"
 #include "text/text_lines.h"
@@ -14,13 +18,73 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t l
   return line.size() < first ? std::string_view{} : trim(line.substr(first - 1, last - first + 1));
 }
 
-double coordinate(std::string_view line, std::size_t first, const LinePlace& place) {
-  const std::string_view field = columns(line, first, first + 7);
-  const auto value = parse_number(field);
-  if (!value) {
-    fail_at(place, "a coordinate (A) in columns " + std::to_string(first) + "-" + std::to_string(first + 7), field);
+/// Throws the error for a record that its columns do not settle.
+[[noreturn]] void fail_at_columns(std::string_view record, const LinePlace& place) {
+  fail_at(place, "an atom record in the columns of PDB, x y z in 31-54", record,
+          "; no tabs, and blanks only where the format has them");
+}
+
+/// `line`, an atom record, with its columns where the format has them. Blanks before it are taken off, and so is what a
+/// serial number of six digits or more moves to the right in files of some programs; in those of others it takes the
+/// blank column before or behind. The decimal points tell.
+///
+/// @throws InputError where they do not
+std::string_view align_record(std::string_view line, const LinePlace& place) {
+  constexpr std::size_t kSerial = 6;
+  constexpr std::size_t kEndOfSerial = 11;
+  constexpr std::size_t kLastColumn = 80;
+  const std::string_view record = line.substr(line.find_first_not_of(" \t\v\f"));
+  const bool is_indented = record.size() < line.size();
+  if (trim(record).substr(0, kLastColumn).find('\t') != std::string_view::npos ||
+      (is_indented && !has_coordinates_at(record, kFirstOfPdb))) {
+    fail_at_columns(line, place);
   }
-  return *value;
+  const std::size_t digits_end = std::min(record.find_first_not_of("0123456789", kSerial), record.size());
+  const std::size_t shift = digits_end > kEndOfSerial ? digits_end - kEndOfSerial : 0;
+  const bool is_shifted =
+      shift > 0 && !has_coordinates_at(record, kFirstOfPdb) && has_coordinates_at(record, kFirstOfPdb + shift);
+  if (!is_shifted && columns(record, kSerial + 1, kEndOfSerial).find(' ') != std::string_view::npos) {
+    fail_at_columns(line, place);
+  }
+  return record.substr(is_shifted ? shift : 0);
+}
+
+/// x, y and z of `record`.
+///
+/// @throws InputError where one is no number, has no decimal point, which other fields that came to stand there have not
+/// either, or goes on beyond its columns: what is in them would be a part of it
+std::array<double, 3> coordinates(std::string_view record, const LinePlace& place) {
+  std::array<double, 3> values{};
+  const bool is_regular = has_coordinates_at(record, kFirstOfPdb);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t begin = kFirstOfPdb + i * kCoordinateWidth;
+    const std::size_t end = begin + kCoordinateWidth;
+    const std::string_view field = columns(record, begin + 1, end);
+    const auto value = parse_number(field);
+    const bool has_point = field.find('.') != std::string_view::npos;
+    const bool is_cut_before = i == 0 && value && !is_blank(record[begin - 1]);
+    const bool is_cut_behind = !is_regular && record.size() > end && !is_blank(record[end - 1]) &&
+                               (is_digit(record[end]) || record[end] == '.');
+    if (!value || !has_point || is_cut_before || is_cut_behind) {
+      fail_at(place, "a coordinate (A) in columns " + std::to_string(begin + 1) + "-" + std::to_string(end),
+              is_cut_before ? columns(record, begin, end) : field,
+              value && !has_point ? "; write it with a decimal point" : "");
+    }
+    values[i] = *value;
+  }
+  return values;
+}
+
+/// True if `line` is an atom record.
+///
+/// @throws InputError if it begins as one and goes on as none
+bool is_atom(std::string_view line, const LinePlace& place) {
+  const std::string_view content = trim(line);
+  const RecordKind kind = classify_record(content).kind;
+  if (kind == RecordKind::kUnknown && upper_start(content, 4) == "ATOM") {
+    fail_at(place, "a serial number behind ATOM", content);
+  }
+  return kind == RecordKind::kAtom;
 }
 
 /// Columns 77-78, or where they are blank what the name says: the element is right-justified in columns 13-14.
@@ -40,18 +104,20 @@ AtomFile parse_pdb(std::string_view text, std::string_view name, const std::stri
   std::string_view model;
   while (const auto line = lines.next()) {
     if (line->starts_with("MODEL ")) model = columns(*line, 7, 14);
-    if (!line->starts_with("ATOM  ") && !line->starts_with("HETATM")) continue;
     const LinePlace place{name, lines.number()};
+    if (!is_atom(*line, place)) continue;
+    const std::string_view record = align_record(*line, place);
+    const auto [x, y, z] = coordinates(record, place);
     builder.add({.where = to_string(place),
-                 .name = columns(*line, 13, 16),
-                 .residue = columns(*line, 18, 20),
-                 .element = element(*line),
-                 .site = std::string(columns(*line, 22, 22)) + " " + std::string(columns(*line, 23, 27)),
-                 .alternate = columns(*line, 17, 17),
+                 .name = columns(record, 13, 16),
+                 .residue = columns(record, 18, 20),
+                 .element = element(record),
+                 .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
+                 .alternate = columns(record, 17, 17),
                  .model = model,
-                 .x = coordinate(*line, 31, place),
-                 .y = coordinate(*line, 39, place),
-                 .z = coordinate(*line, 47, place)});
+                 .x = x,
+                 .y = y,
+                 .z = z});
   }
   return builder.finish();
 }

@@ -150,23 +150,36 @@ inline std::optional<NumberFields> find_by_fields(std::span<const std::string_vi
   return NumberFields{{numbers[0], numbers[1], numbers[2], numbers[4], numbers[3]}, fields.first(end - kNumbers)};
 }
 
-/// Finds the numbers of an atom in `line` if x, y, z take eight columns each from `first` on, three decimals each,
-/// and charge and radius stand behind. Uses `splitter`.
-inline std::optional<NumberFields> find_at_column(std::string_view line, std::size_t first, FieldSplitter& splitter) {
-  constexpr std::size_t kWidth = 8;
+/// Where x begins in a record of PDB, counted from 0, and how many columns each coordinate has.
+inline constexpr std::size_t kFirstOfPdb = 30;
+inline constexpr std::size_t kCoordinateWidth = 8;
+
+/// True if x, y and z take eight columns each of `line` from `first` on, with three decimals.
+inline bool has_coordinates_at(std::string_view line, std::size_t first) {
   constexpr std::size_t kPoint = 4;
-  const std::size_t end = first + 3 * kWidth;
+  if (line.size() < first + 3 * kCoordinateWidth) {
+    return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string_view slot = line.substr(first + i * kCoordinateWidth, kCoordinateWidth);
+    if (slot[kPoint] != '.' || !std::all_of(slot.begin() + kPoint + 1, slot.end(), is_digit)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Finds the numbers of an atom in `line` if x, y, z take their columns from `first` on, and charge and radius stand
+/// behind. Uses `splitter`.
+inline std::optional<NumberFields> find_at_column(std::string_view line, std::size_t first, FieldSplitter& splitter) {
+  const std::size_t end = first + 3 * kCoordinateWidth;
   // A blank before x shows that x has not grown out of its columns.
-  if (line.size() <= end || is_blank(line[0]) || !is_blank(line[first - 1])) {
+  if (!has_coordinates_at(line, first) || is_blank(line[0]) || !is_blank(line[first - 1])) {
     return std::nullopt;
   }
   NumberFields result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string_view slot = line.substr(first + i * kWidth, kWidth);
-    if (slot[kPoint] != '.' || !std::all_of(slot.begin() + kPoint + 1, slot.end(), is_digit)) {
-      return std::nullopt;
-    }
-    result.fields[i] = trim(slot);
+    result.fields[i] = trim(line.substr(first + i * kCoordinateWidth, kCoordinateWidth));
   }
   const auto behind = splitter.split(line.substr(end));
   if (behind.size() < 2 || (behind.size() > 2 && !is_symbol(behind[2]) && behind[2][0] != '#')) {
@@ -180,7 +193,6 @@ inline std::optional<NumberFields> find_at_column(std::string_view line, std::si
 /// Finds the numbers of an atom by columns: coordinates in columns 31-54 as in PDB, or in 32-55, where pdb2pqr puts
 /// them if it writes no chains. The decimal points tell which; both at once they cannot be.
 inline std::optional<NumberFields> find_by_columns(std::string_view line, FieldSplitter& splitter) {
-  constexpr std::size_t kFirstOfPdb = 30;
   const auto found = find_at_column(line, kFirstOfPdb, splitter);
   return found ? found : find_at_column(line, kFirstOfPdb + 1, splitter);
 }

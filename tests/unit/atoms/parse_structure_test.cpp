@@ -112,6 +112,41 @@ TEST_CASE("elements are in columns 77-78, or in the name") {
   CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
 }
 
+TEST_CASE("atom records are read whatever their case, indent and serial number") {
+  const std::string line = pdb_line(kCarbon);
+  const std::string rest = line.substr(11);   // from the blank behind the serial number
+  const std::string names = line.substr(12);  // from the name on
+  const std::string record = GENERATE_COPY(
+      "atom      1" + rest, "Atom      1" + rest, "hetatm    1" + rest, " ATOM      1" + rest, "   HETATM    1" + rest,
+      "ATOM 100000" + rest, "ATOM1000000" + rest, "ATOM  100000" + names, "HETATM100000" + names, "ATOM  100000" + rest,
+      "HETATM1000000" + rest, "ATOM  *****" + rest, "ATOM  A000F" + rest, "HETATM    1" + rest);
+  const AtomFile file = parse_pdb("REMARK\n" + record, "a.pdb", "bondi");
+  CAPTURE(record);
+  REQUIRE(file.atoms.size() == 1);
+  CHECK(file.atoms[0].x == 1.5);
+  CHECK(file.atoms[0].y == -2.25);
+  CHECK(file.atoms[0].z == 3.125);
+  CHECK(file.atoms[0].radius == 1.70);
+}
+
+TEST_CASE("atom records that their columns do not settle name the line") {
+  const std::string line = pdb_line(kCarbon);
+  const std::string record = GENERATE_COPY(
+      "ATOM\t    2" + line.substr(11), "ATOM\t2\tCA\tGLY\tA\t7\t1.5\t-2.25\t3.125\n",
+      "ATOM 2 CA GLY A 7 1.5 -2.25 3.125 1.00 10.00 C\n", " ATOM 2 CA GLY A 7 1.5 -2.25 3.125\n", "ATOM\n",
+      "ATOM 2 CA GLY A   7         " + line.substr(28), "ATOMS     1" + line.substr(11), "ATOM  " + line);
+  CAPTURE(record);
+  CHECK_THAT(error_of("REMARK\n" + line + record + line), ContainsSubstring("a.pdb:3: expected a"));
+}
+
+TEST_CASE("a coordinate that goes on beyond its columns is not cut") {
+  std::string line = pdb_line(kCarbon);
+  line.replace(29, 9, "-1000.125");
+  CHECK_THAT(error_of(line), ContainsSubstring("a.pdb:1: expected a coordinate (A) in columns 31-38, got '-1000.125'"));
+  line.replace(29, 26, "    11.1041116.1341116.504");  // moved by one
+  CHECK_THAT(error_of(line), ContainsSubstring("a.pdb:1: expected a coordinate (A) in columns 31-38"));
+}
+
 TEST_CASE("the first model, the first of alternate locations, and no water") {
   NamedAtom other = kCarbon, water = kCarbon, next = kCarbon;
   other.atom.x = 9.0;
