@@ -97,8 +97,9 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 ///
 /// ATOM and HETATM records, in any case, are read by their columns. They may be indented, and their serial number may
 /// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
-/// model is taken, of each residue the alternate location that comes first, and no water (HOH, WAT, DOD, ...); warnings
-/// count what is left out. Hydrogens are taken if they are there; none are added. Charges are 0. Radii come from a set:
+/// model is taken, which ends at ENDMDL, END or the next MODEL, of each residue the alternate location that comes
+/// first, and no water (HOH, WAT, DOD, ...); warnings count what is left out. Hydrogens are taken if they are there;
+/// none are added. Charges are 0. Radii come from a set:
 ///
 /// - bondi: by element; Bondi, J. Phys. Chem. 68:441 (1964)
 /// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)

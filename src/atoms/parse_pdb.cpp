@@ -51,8 +51,8 @@ std::string_view align_record(std::string_view line, const LinePlace& place) {
 
 /// x, y and z of `record`.
 ///
-/// @throws InputError where one is no number, has no decimal point, which other fields that came to stand there have not
-/// either, or goes on beyond its columns: what is in them would be a part of it
+/// @throws InputError where one is no number, has no decimal point, as a residue number that came to stand there, or
+/// goes on beyond its columns: what is in them would be a part of it
 std::array<double, 3> coordinates(std::string_view record, const LinePlace& place) {
   std::array<double, 3> values{};
   const bool is_regular = has_coordinates_at(record, kFirstOfPdb);
@@ -75,16 +75,16 @@ std::array<double, 3> coordinates(std::string_view record, const LinePlace& plac
   return values;
 }
 
-/// True if `line` is an atom record.
+/// What `line` is.
 ///
-/// @throws InputError if it begins as one and goes on as none
-bool is_atom(std::string_view line, const LinePlace& place) {
+/// @throws InputError if it begins as an atom record and goes on as none
+RecordKind kind_of(std::string_view line, const LinePlace& place) {
   const std::string_view content = trim(line);
   const RecordKind kind = classify_record(content).kind;
   if (kind == RecordKind::kUnknown && upper_start(content, 4) == "ATOM") {
     fail_at(place, "a serial number behind ATOM", content);
   }
-  return kind == RecordKind::kAtom;
+  return kind;
 }
 
 /// Columns 77-78, or where they are blank what the name says: the element is right-justified in columns 13-14.
@@ -96,28 +96,42 @@ std::string_view element(std::string_view line) {
   return line.size() > 12 && line[12] == 'H' ? line.substr(12, 1) : guess;  // names of four letters are of hydrogens
 }
 
+void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& builder) {
+  const std::string_view record = align_record(line, place);
+  const auto [x, y, z] = coordinates(record, place);
+  builder.add({.where = to_string(place),
+               .name = columns(record, 13, 16),
+               .residue = columns(record, 18, 20),
+               .element = element(record),
+               .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
+               .alternate = columns(record, 17, 17),
+               .model = {},
+               .x = x,
+               .y = y,
+               .z = z});
+}
+
 }  // namespace
 
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii) {
   StructureBuilder builder(name, radii);
   LineReader lines(require_text(text, name));
-  std::string_view model;
   while (const auto line = lines.next()) {
-    if (line->starts_with("MODEL ")) model = columns(*line, 7, 14);
     const LinePlace place{name, lines.number()};
-    if (!is_atom(*line, place)) continue;
-    const std::string_view record = align_record(*line, place);
-    const auto [x, y, z] = coordinates(record, place);
-    builder.add({.where = to_string(place),
-                 .name = columns(record, 13, 16),
-                 .residue = columns(record, 18, 20),
-                 .element = element(record),
-                 .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
-                 .alternate = columns(record, 17, 17),
-                 .model = model,
-                 .x = x,
-                 .y = y,
-                 .z = z});
+    switch (kind_of(*line, place)) {
+      case RecordKind::kAtom:
+        read_atom(*line, place, builder);
+        break;
+      case RecordKind::kModel:
+      case RecordKind::kEndOfModel:
+      case RecordKind::kEnd:
+        // Numbers do not tell models apart: frames may all have the same, or none.
+        builder.end_model(place.line);
+        break;
+      case RecordKind::kPassedOver:
+      case RecordKind::kUnknown:
+        break;
+    }
   }
   return builder.finish();
 }

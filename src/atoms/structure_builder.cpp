@@ -25,7 +25,7 @@ bool StructureBuilder::is_taken(const AtomSite& site) {
     has_model_ = true;
     model_ = site.model;
   }
-  if (site.model != model_) {
+  if (model_end_line_ || site.model != model_) {
     ++other_models_;
     return false;
   }
@@ -58,11 +58,16 @@ void StructureBuilder::add(const AtomSite& site) {
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
 }
 
+void StructureBuilder::end_model(std::size_t line) {
+  if (has_model_ && !model_end_line_) model_end_line_ = line;
+}
+
 AtomFile StructureBuilder::finish() {
   if (file_.atoms.empty()) {
     throw InputError(file_name_ + ": expected atoms, got none" + (waters_ > 0 ? " but of water" : ""));
   }
-  warn_of(other_models_, "of models other than the first", file_name_, file_);
+  const std::string end = model_end_line_ ? ", which ends in line " + std::to_string(*model_end_line_) : "";
+  warn_of(other_models_, "of models other than the first" + end, file_name_, file_);
   warn_of(waters_, "of water", file_name_, file_);
   warn_of(other_locations_, "at alternate locations other than the first", file_name_, file_);
   return std::move(file_);

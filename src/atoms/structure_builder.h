@@ -3,7 +3,9 @@
 // The formats are parse_pdb.cpp and parse_mmcif.cpp.
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,7 +22,7 @@ struct AtomSite {
   std::string_view element;
   std::string site;            ///< chain, number and insertion code of the residue: the same for all its atoms
   std::string_view alternate;  ///< location; empty if there is only one
-  std::string_view model;
+  std::string_view model;      ///< the same for all atoms of a model, or empty where end_model parts them
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
@@ -33,6 +35,10 @@ class StructureBuilder {
   /// @throws InputError if the set of radii has none for the atom, or a coordinate is out of range
   void add(const AtomSite& site);
 
+  /// Ends the model of the atoms so far, in that line of the file; those added from now on are of other models. Does
+  /// nothing before the first atom.
+  void end_model(std::size_t line);
+
   /// What was found, with warnings of what was left out. @throws InputError if there is no atom
   AtomFile finish();
 
@@ -44,6 +50,7 @@ class StructureBuilder {
   AtomFile file_;
   bool has_model_ = false;
   std::string model_;                              // the first
+  std::optional<std::size_t> model_end_line_;      // of the first
   std::map<std::string, std::string> alternates_;  // by residue: the one that is taken
   std::size_t other_models_ = 0;
   std::size_t other_locations_ = 0;

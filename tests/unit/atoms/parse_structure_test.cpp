@@ -160,7 +160,32 @@ TEST_CASE("the first model, the first of alternate locations, and no water") {
   CHECK(file.atoms[0].x == 1.5);
   CHECK(file.atoms[1].x == 4.0);
   REQUIRE(file.warnings.size() == 3);
-  CHECK(file.warnings[0] == "a.pdb: left out 1 atoms of models other than the first");
+  CHECK(file.warnings[0] == "a.pdb: left out 1 atoms of models other than the first, which ends in line 6");
+}
+
+TEST_CASE("frames are models, however they are parted") {
+  NamedAtom other = kCarbon;
+  other.atom.x = 9.0;
+  const std::string first = pdb_line(kCarbon), second = pdb_line(other) + pdb_line(other);
+  const std::string text = GENERATE_COPY(
+      "TITLE\n" + first + "END\n" + second + "END\n", "MODEL 1\n" + first + "ENDMDL\nMODEL 1\n" + second + "ENDMDL\n",
+      "TITLE\n" + first + "ENDMDL\n" + second + "ENDMDL\nEND\n", "MODEL 1\n" + first + "MODEL 2\n" + second + "END\n",
+      "model 1\n" + first + "end\n" + second, "ENDMDL\n" + first + "ENDMDL\n" + second);
+  CAPTURE(text);
+  const AtomFile file = parse_pdb(text, "a.pdb", "bondi");
+  REQUIRE(file.atoms.size() == 1);
+  CHECK(file.atoms[0].x == 1.5);
+  REQUIRE(file.warnings.size() == 1);
+  CHECK(file.warnings[0] == "a.pdb: left out 2 atoms of models other than the first, which ends in line 3");
+}
+
+TEST_CASE("one model may have several chains, and an end") {
+  const std::string line = pdb_line(kCarbon);
+  const std::string text = GENERATE_COPY(line + "TER\n" + line + "END\n", line + line + "ENDMDL\nMASTER\nEND   \n",
+                                         "MODEL 1\nENDMDL\nMODEL 2\n" + line + "TER\n" + line + "ENDMDL\nEND\n");
+  const AtomFile file = parse_pdb(text, "a.pdb", "bondi");
+  CHECK(file.atoms.size() == 2);
+  CHECK(file.warnings.empty());
 }
 
 TEST_CASE("what is no structure names the line") {
