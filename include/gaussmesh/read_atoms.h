@@ -101,7 +101,8 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// first, and no water (HOH, WAT, DOD, ...); warnings count what is left out. Hydrogens are taken if they are there;
 /// none are added. Charges are 0. Radii come from a set:
 ///
-/// - bondi: by element; Bondi, J. Phys. Chem. 68:441 (1964)
+/// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
+///   Bondi, J. Phys. Chem. 68:441 (1964)
 /// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)
 /// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
 ///

@@ -38,6 +38,7 @@ AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::st
                  .name = row[kName],
                  .residue = row[kResidue],
                  .element = row[kElement],
+                 .element_place = "type_symbol",
                  .site = row[kChain] + " " + row[kNumber] + row[kInsertion],
                  .alternate = row[kAlternate],
                  .model = row[kModel],

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "atoms/pdb_element.h"
 #include "atoms/pqr_record.h"
 #include "atoms/structure_builder.h"
 #include "gaussmesh/error.h"
@@ -87,13 +88,11 @@ RecordKind kind_of(std::string_view line, const LinePlace& place) {
   return kind;
 }
 
-/// Columns 77-78, or where they are blank what the name says: the element is right-justified in columns 13-14.
-std::string_view element(std::string_view line) {
-  const std::string_view written = columns(line, 77, 78);
-  if (!written.empty() && is_letter(written[0])) return written;
-  const std::string_view guess = columns(line, 13, 14);
-  if (guess.size() == 2 && is_digit(guess[0])) return guess.substr(1);
-  return line.size() > 12 && line[12] == 'H' ? line.substr(12, 1) : guess;  // names of four letters are of hydrogens
+/// Columns 77-78, or where they are blank, or have the line numbers of old files, what the name says.
+std::string element(std::string_view record) {
+  const std::string_view written = columns(record, 77, 78);
+  if (!written.empty() && is_letter(written[0])) return std::string(written);
+  return record.size() < 16 ? std::string{} : element_of_name(record.substr(12, 4), columns(record, 18, 20));
 }
 
 void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& builder) {
@@ -103,6 +102,7 @@ void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& 
                .name = columns(record, 13, 16),
                .residue = columns(record, 18, 20),
                .element = element(record),
+               .element_place = "columns 77-78",
                .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
                .alternate = columns(record, 17, 17),
                .model = {},

@@ -14,6 +14,10 @@ bool is_water(std::string_view residue) {
   return std::find(std::begin(kWaters), std::end(kWaters), residue) != std::end(kWaters);
 }
 
+std::string element_text(const AtomSite& site) {
+  return site.element.empty() ? "no element in " + std::string(site.element_place) : "element '" + site.element + "'";
+}
+
 void warn_of(std::size_t count, const std::string& what, const std::string& name, AtomFile& file) {
   if (count > 0) file.warnings.push_back(name + ": left out " + std::to_string(count) + " atoms " + what);
 }
@@ -51,9 +55,8 @@ void StructureBuilder::add(const AtomSite& site) {
   }
   const auto radius = radii_.find(site.residue, site.name, site.element);
   if (!radius) {
-    throw InputError(site.where + ": expected an atom that the radii '" + radii_.name() + "' know, got " + name +
-                     ", element '" + std::string(site.element) +
-                     "'; take it out, use other radii, or give it one in a PQR file");
+    throw InputError(site.where + ": expected an atom that the radii '" + radii_.name() + "' know, got " + name + ", " +
+                     element_text(site) + "; take it out, use other radii, or give it one in a PQR file");
   }
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
 }

@@ -19,10 +19,11 @@ struct AtomSite {
   std::string where;      ///< `file:line`, or what else a message should begin with
   std::string_view name;  ///< of the atom
   std::string_view residue;
-  std::string_view element;
-  std::string site;            ///< chain, number and insertion code of the residue: the same for all its atoms
-  std::string_view alternate;  ///< location; empty if there is only one
-  std::string_view model;      ///< the same for all atoms of a model, or empty where end_model parts them
+  std::string element;             ///< empty if there is none
+  std::string_view element_place;  ///< where the file has elements, for messages
+  std::string site;                ///< chain, number and insertion code of the residue: the same for all its atoms
+  std::string_view alternate;      ///< location; empty if there is only one
+  std::string_view model;          ///< the same for all atoms of a model, or empty where end_model parts them
   double x = 0.0, y = 0.0, z = 0.0;
 };
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "atoms/pdb_element.h"
 #include "atoms/radii.h"
 #include "catch2.h"
 #include "gaussmesh/error.h"
@@ -110,6 +111,40 @@ TEST_CASE("elements are in columns 77-78, or in the name") {
   CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
   line.replace(12, 4, "1HG1");
   CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
+}
+
+TEST_CASE("elements are known from names, or not at all") {
+  struct Case {
+    const char* name;  // columns 13-16
+    const char* residue;
+    const char* element;
+  };
+  const Case known = GENERATE(values<Case>({
+      {"CA  ", "GLY", "C"},  {" CA ", "GLY", "C"},  {"NE  ", "ARG", "N"},  {"CD  ", "PRO", "C"}, {"HG  ", "SER", "H"},
+      {"CE  ", "lys", "C"},  {"ne2 ", "HIE", "N"},  {"HG11", "VAL", "H"},  {"1HG1", "VAL", "H"}, {"OXT ", "ALA", "O"},
+      {"SD  ", "MET", "S"},  {"SE  ", "MSE", "SE"}, {"SE  ", "MET", "SE"}, {"D   ", "ALA", "D"}, {"P   ", "DA", "P"},
+      {"OP1 ", "U", "O"},    {"ZN  ", "GLY", "ZN"}, {"ZN  ", "ZN", "ZN"},  {"CA  ", "CA", "CA"}, {" CA ", "LIG", "C"},
+      {"CL  ", "LIG", "CL"}, {"CL12", "LIG", "CL"}, {"C1  ", "LIG", "C"},  {" C1 ", "LIG", "C"}, {"C10A", "LIG", "C"},
+      {"FE  ", "HEM", "FE"}, {"BR1 ", "LIG", "BR"}, {"HG  ", "HG", "HG"},  {"NA  ", "NA", "NA"}, {"K   ", "K", "K"},
+      {"HA  ", "LIG", "H"},  {"HE21", "LIG", "H"},  {"1H  ", "LIG", "H"},  {"CX  ", "LIG", "C"}, {"CA  ", "LIG", ""},
+      {"NE  ", "LIG", ""},   {"CD1 ", "LIG", ""},   {"HG  ", "LIG", ""},   {"NA  ", "HEM", ""},  {"12  ", "LIG", ""},
+      {"NH1 ", "LIG", "N"},  {"    ", "LIG", ""},   {"XX  ", "LIG", ""},   {"QA  ", "GLY", ""},
+  }));
+  CAPTURE(known.name, known.residue);
+  CHECK(element_of_name(known.name, known.residue) == known.element);
+}
+
+TEST_CASE("where the element stays open there is an error, but for radii that do without") {
+  std::string line = pdb_line(kCarbon).substr(0, 66);
+  line.replace(12, 4, "CA  ");
+  CHECK(parse_pdb(line, "a.pdb", "bondi").atoms[0].radius == 1.70);
+  line.replace(17, 3, "LIG");
+  CHECK(error_of(line) ==
+        "a.pdb:1: expected an atom that the radii 'bondi' know, got atom CA of residue LIG A 7, no element in columns "
+        "77-78; take it out, use other radii, or give it one in a PQR file");
+  line.replace(17, 3, "GLY");
+  line.replace(12, 4, "CA  ");
+  CHECK(parse_pdb(line, "a.pdb", "amber").atoms[0].radius == 1.908);
 }
 
 TEST_CASE("atom records are read whatever their case, indent and serial number") {
