@@ -46,7 +46,8 @@ const std::vector<std::string>& radius_set_names();
 /// with `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
 /// than 64 MiB and 200-fold are refused.
 ///
-/// @throws OptionError if a format or set of radii is unknown, or no radii are given for PDB or mmCIF
+/// @throws OptionError if a format or set of radii is unknown, no radii are given for PDB or mmCIF, or any for PQR or
+///         XYZR
 /// @throws InputError as the parsers do, and if the file is missing, a directory, unreadable, or corrupt gzip
 ///
 /// Cost: one pass over the file held in memory; a million atoms take about 0.2 s.

@@ -28,10 +28,20 @@ std::string choose_format(std::string_view name, const ReadOptions& options) {
                     nearest_name(options.format, known) + "'?");
 }
 
+/// Throws OptionError if `options` give radii to a file of `format`, which has its own.
+void require_no_radii(const std::string& format, std::string_view name, const ReadOptions& options) {
+  if (options.radii.empty()) return;
+  throw OptionError(std::string(name) + ": expected no --radii for a file that has its own radii, as " +
+                    (format == "pqr" ? "PQR" : "XYZR") + " does, got '" + options.radii +
+                    "'; if it is another format, say so with --input-format");
+}
+
 AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {
   const std::string format = choose_format(name, options);
-  if (format == "xyzr") return parse_xyzr(data, name);
-  if (format == "pqr") return parse_pqr(data, name);
+  if (format == "xyzr" || format == "pqr") {
+    require_no_radii(format, name, options);
+    return format == "xyzr" ? parse_xyzr(data, name) : parse_pqr(data, name);
+  }
   if (options.radii.empty()) {
     throw OptionError(std::string(name) +
                       ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or make a PQR "

@@ -115,6 +115,8 @@ class Structures(CliTest):
         self.write("ubq.pdb", self.pdb())
         self.assertIn("--radii", self.expect(WRONG_USE, "ubq.pdb", "-o", self.mesh).stderr)
         self.assertIn("'amber'", self.expect(WRONG_USE, "ubq.pdb", "--radii", "ambr", "-o", self.mesh).stderr)
+        said = self.expect(WRONG_USE, self.molecule("methanol"), "--radii", "bondi", "-o", self.mesh).stderr
+        self.assertIn("expected no --radii", said)
 
 
 class BadInput(CliTest):

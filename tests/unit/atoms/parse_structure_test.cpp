@@ -264,3 +264,15 @@ TEST_CASE("which format a file is in") {
   CHECK_THROWS_AS(read_atoms(folder / "a.pdb"), OptionError);
   CHECK_THROWS_AS(read_atoms(folder / "b", {"pdq", "bondi"}), OptionError);
 }
+
+TEST_CASE("files that have radii take no others") {
+  for (const char* name : {"a.pqr", "a.xyzr", "standard input"}) {
+    std::istringstream text(name == std::string("a.xyzr") ? "0 0 0 1\n" : "ATOM 1 N ASN 1 -8.9 4.1 -0.5 0.18 1.8\n");
+    CHECK_THROWS_MATCHES(
+        read_atoms(text, name, {"", "bondi"}), OptionError,
+        Catch::Matchers::Message(std::string(name) + ": expected no --radii for a file that has its own radii, as " +
+                                 (name == std::string("a.xyzr") ? "XYZR" : "PQR") +
+                                 " does, got 'bondi'; if it is another format, say so with "
+                                 "--input-format"));
+  }
+}
