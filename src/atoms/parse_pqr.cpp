@@ -64,7 +64,7 @@ AtomFile PqrParser::parse() {
   }
   if (file_.atoms.empty()) {
     throw InputError(std::string(name_) + ": expected ATOM or HETATM records, got no atoms; lines of four numbers, " +
-                     "x y z radius, are read from files named .xyzr");
+                     "x y z radius, are read from files named .xyzr, or with --input-format xyzr");
   }
   missing_field_check_.require_complete(name_);
   pdb_check_.require_pqr(file_.atoms.size(), name_);
@@ -156,9 +156,12 @@ FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {
 }
 
 void PqrParser::fail_at_layout(std::string_view line) const {
-  const char* remedy = has_pdb_columns(line) ? "; is it a PDB file? pdb2pqr gives it charges and radii, or name it .pdb"
-                       : lines_.is_cut()     ? "; the file ends here, is it cut off?"
-                                             : "";
+  const char* remedy =
+      has_pdb_columns(line)
+          ? "; is it a PDB file? pdb2pqr gives it charges and radii, or read it with --input-format pdb and "
+            "--radii"
+      : lines_.is_cut() ? "; the file ends here, is it cut off?"
+                        : "";
   fail_at(place(), "serial, atom, residue, [chain,] residue number, x, y, z, charge, radius in an atom record",
           trim(line), remedy);
 }
@@ -168,7 +171,8 @@ void PqrParser::note_unknown(std::string_view content) {
     fail_at(place(), "PQR records", content, "; PQR-XML is not supported, convert it to PQR");
   }
   if (content.starts_with("data_") || content.starts_with("loop_")) {
-    fail_at(place(), "PQR records", content, "; mmCIF is read from files named .cif");
+    fail_at(place(), "PQR records", content,
+            "; mmCIF is read from files named .cif, or with --input-format mmcif, and --radii");
   }
   if (unknown_lines_++ == 0) {
     first_unknown_line_ = lines_.number();

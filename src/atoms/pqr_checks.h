@@ -39,7 +39,8 @@ class PdbCheck {
     if (is_pdb) {
       fail_at({name, *first_line_}, "charge and radius behind the coordinates", first_values_,
               ", which look like occupancy and B-factor, here as in every record: is it a PDB file? pdb2pqr gives it "
-              "charges and radii; if these are meant, set the charges to 0, the surface does not use them");
+              "charges and radii, or read it with --input-format pdb and --radii; if these are meant, set the charges "
+              "to 0, the surface does not use them");
     }
   }
 

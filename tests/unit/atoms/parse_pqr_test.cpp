@@ -186,7 +186,11 @@ TEST_CASE("parse_pqr knows a PDB file by all its records") {
   CHECK_THAT(error_of(pdb_records(8, 1, kElement)), ContainsSubstring(message));
   CHECK_THAT(error_of("REMARK\n" + pdb_records(20, 5, kElement)), ContainsSubstring("f.pqr:2: expected charge"));
   CHECK_THAT(error_of(pdb_records(20, 90, kElement)), ContainsSubstring("f.pqr:11: expected serial"));
-  CHECK_THAT(error_of(pdb_records(20, 90, kElement)), ContainsSubstring("is it a PDB file? pdb2pqr"));
+  for (const int first_b : {5, 90}) {
+    CHECK_THAT(error_of(pdb_records(20, first_b, kElement)), ContainsSubstring("is it a PDB file? pdb2pqr gives it"));
+    CHECK_THAT(error_of(pdb_records(20, first_b, kElement)),
+               ContainsSubstring("or read it with --input-format pdb and --radii"));
+  }
 }
 
 TEST_CASE("parse_pqr takes no PQR file for a PDB file") {
@@ -218,8 +222,10 @@ TEST_CASE("parse_pqr warns of lines that it skips") {
 
 TEST_CASE("parse_pqr refuses other formats") {
   CHECK_THAT(error_of("\n <pqr>\n"), ContainsSubstring("f.pqr:2: expected PQR records, got '<pqr>'; PQR-XML"));
-  CHECK_THAT(error_of("data_1ABC\n#\n"), ContainsSubstring("mmCIF is read from"));
-  CHECK_THAT(error_of("1.0 2.0 3.0 4.0\n"), ContainsSubstring("x y z radius, are read from files named .xyzr"));
+  CHECK_THAT(error_of("data_1ABC\n#\n"),
+             ContainsSubstring("mmCIF is read from files named .cif, or with --input-format mmcif, and --radii"));
+  CHECK_THAT(error_of("1.0 2.0 3.0 4.0\n"),
+             ContainsSubstring("x y z radius, are read from files named .xyzr, or with --input-format xyzr"));
   CHECK_THAT(error_of("\xfe\xff"), ContainsSubstring("UTF-16"));
 }
 
