@@ -4,6 +4,7 @@
 // cannot be read in one way only is an error, and what is left out of a file is told in a warning.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -17,6 +18,7 @@ namespace gaussmesh {
 /// What a reader found.
 struct AtomFile {
   std::vector<Atom> atoms;            ///< in the order of the file; at least one
+  std::vector<std::size_t> lines;     ///< of each atom, from 1; of mmCIF its number in the table, from 1
   std::vector<std::string> warnings;  ///< `file:line: ...`, each worth a line on the terminal
 };
 
@@ -46,11 +48,14 @@ const std::vector<std::string>& radius_set_names();
 /// with `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
 /// than 64 MiB and 200-fold are refused.
 ///
+/// A warning names the first atom nearer than 0.1 A to one before it, and counts them: copies and alternate locations
+/// are all in the field.
+///
 /// @throws OptionError if a format or set of radii is unknown, no radii are given for PDB or mmCIF, or any for PQR or
 ///         XYZR
 /// @throws InputError as the parsers do, and if the file is missing, a directory, unreadable, or corrupt gzip
 ///
-/// Cost: one pass over the file held in memory; a million atoms take about 0.2 s.
+/// Cost: one pass over the file held in memory; a million atoms take about 0.3 s.
 /// Thread-safe. Does not depend on the locale.
 AtomFile read_atoms(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -35,6 +35,7 @@ AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::st
   for (const std::vector<std::string>& row : table.rows) {
     const std::string where = std::string(name) + ": atom " + std::to_string(++number);
     builder.add({.where = where,
+                 .line = number,
                  .name = row[kName],
                  .residue = row[kResidue],
                  .element = row[kElement],

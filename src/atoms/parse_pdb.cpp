@@ -99,6 +99,7 @@ void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& 
   const std::string_view record = align_record(line, place);
   const auto [x, y, z] = coordinates(record, place);
   builder.add({.where = to_string(place),
+               .line = place.line,
                .name = columns(record, 13, 16),
                .residue = columns(record, 18, 20),
                .element = element(record),

@@ -22,6 +22,7 @@ class PqrParser {
   PqrParser(std::string_view text, std::string_view name) : name_(name), lines_(text) {
     constexpr std::size_t kTypicalRecord = 70;
     file_.atoms.reserve(text.size() / kTypicalRecord);
+    file_.lines.reserve(text.size() / kTypicalRecord);
   }
 
   AtomFile parse();
@@ -131,6 +132,7 @@ void PqrParser::read_atom(std::string_view line, std::string_view rest) {
   large_radii_.add(found.atom.radius, lines_.number());
   atoms_after_end_ += end_line_ ? 1 : 0;
   file_.atoms.push_back(found.atom);
+  file_.lines.push_back(lines_.number());
 }
 
 FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {

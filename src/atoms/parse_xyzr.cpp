@@ -69,6 +69,7 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name) {
       }
     }
     file.atoms.push_back(read_line(fields, content, {name, lines.number()}));
+    file.lines.push_back(lines.number());
     large_radii.add(file.atoms.back().radius, lines.number());
   }
   if (file.atoms.empty()) {

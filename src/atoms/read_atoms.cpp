@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "atoms/close_atoms.h"
 #include "atoms/radii.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
@@ -36,8 +37,8 @@ void require_no_radii(const std::string& format, std::string_view name, const Re
                     "'; if it is another format, say so with --input-format");
 }
 
-AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {
-  const std::string format = choose_format(name, options);
+AtomFile parse_format(std::string_view data, std::string_view name, const std::string& format,
+                      const ReadOptions& options) {
   if (format == "xyzr" || format == "pqr") {
     require_no_radii(format, name, options);
     return format == "xyzr" ? parse_xyzr(data, name) : parse_pqr(data, name);
@@ -48,6 +49,13 @@ AtomFile parse_data(std::string_view data, std::string_view name, const ReadOpti
                       "file of it with pdb2pqr");
   }
   return format == "pdb" ? parse_pdb(data, name, options.radii) : parse_mmcif(data, name, options.radii);
+}
+
+AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {
+  const std::string format = choose_format(name, options);
+  AtomFile file = parse_format(data, name, format, options);
+  warn_of_close_atoms(name, format == "mmcif" ? PlaceKind::kAtom : PlaceKind::kLine, file);
+  return file;
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ void StructureBuilder::add(const AtomSite& site) {
                      element_text(site) + "; take it out, use other radii, or give it one in a PQR file");
   }
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
+  file_.lines.push_back(site.line);
 }
 
 void StructureBuilder::end_model(std::size_t line) {

@@ -17,6 +17,7 @@ namespace gaussmesh {
 /// One atom as a file of structures has it.
 struct AtomSite {
   std::string where;      ///< `file:line`, or what else a message should begin with
+  std::size_t line = 0;   ///< as AtomFile::lines has it
   std::string_view name;  ///< of the atom
   std::string_view residue;
   std::string element;             ///< empty if there is none
