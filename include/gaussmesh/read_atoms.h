@@ -104,13 +104,17 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// ATOM and HETATM records, in any case, are read by their columns. They may be indented, and their serial number may
 /// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
 /// model is taken, which ends at ENDMDL, END or the next MODEL, of each residue the alternate location that comes
-/// first, and no water (HOH, WAT, DOD, ...); warnings count what is left out. Hydrogens are taken if they are there;
-/// none are added. Charges are 0. Radii come from a set:
+/// first, and no water (HOH, WAT, TIP3, SOL, ...); warnings count what is left out. Hydrogens are taken if they are
+/// there; none are added. Charges are 0. Radii come from a set:
 ///
 /// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
 ///   Bondi, J. Phys. Chem. 68:441 (1964)
 /// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)
 /// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
+///
+/// The latter two know residues and atoms by other names too where they have no entry for these: HID, HIE, HIP, HSD,
+/// HSE and HSP are HIS, CYX and CYM CYS, ASH ASP, GLH GLU, LYN LYS, MSE MET with SE for SD; HN is H, OT1 and OT2 are O
+/// and OXT, O1P and O2P are OP1 and OP2.
 ///
 /// @throws OptionError  if there is no such set
 /// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, the set has

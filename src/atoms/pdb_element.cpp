@@ -43,10 +43,8 @@ std::string_view element_of_two(std::string_view name, std::string_view residue)
 }  // namespace
 
 std::string element_of_name(std::string_view name, std::string_view residue) {
-  std::string upper_name(name.substr(0, kNameWidth));
-  std::string upper_residue(residue);
-  std::transform(upper_name.begin(), upper_name.end(), upper_name.begin(), to_upper);
-  std::transform(upper_residue.begin(), upper_residue.end(), upper_residue.begin(), to_upper);
+  const std::string upper_name = upper_case(name.substr(0, kNameWidth));
+  const std::string upper_residue = upper_case(residue);
   const auto first = std::find_if(upper_name.begin(), upper_name.end(), is_letter);
   if (first == upper_name.end()) return {};
   const std::string letters(first, std::find(first, upper_name.end(), ' '));

@@ -44,11 +44,7 @@ inline constexpr auto kPassedOver = std::to_array<std::string_view>(
 static_assert(std::is_sorted(kPassedOver.begin(), kPassedOver.end()));
 
 /// The first `size` characters of `text` in upper case.
-inline std::string upper_start(std::string_view text, std::size_t size) {
-  std::string start(text.substr(0, size));
-  std::transform(start.begin(), start.end(), start.begin(), to_upper);
-  return start;
-}
+inline std::string upper_start(std::string_view text, std::size_t size) { return upper_case(text.substr(0, size)); }
 
 /// What `content`, the start of a line that is no atom, is.
 inline RecordKind kind_of_other_record(std::string_view content) {

@@ -2,6 +2,7 @@
 
 #include "atoms/radii.h"
 
+#include "atoms/residue_names.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
 #include "gaussmesh/read_atoms.h"
@@ -204,12 +205,6 @@ constexpr ResidueRadii kCharmm[] = {
      "H3 HO5' HO3'"},
 };
 
-std::string upper_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = to_upper(c);
-  return result;
-}
-
 }  // namespace
 
 const std::vector<std::string>& radius_set_names() {
@@ -242,9 +237,20 @@ RadiusSet::RadiusSet(const std::string& name) : name_(name) {
   }
 }
 
-std::optional<double> RadiusSet::find(std::string_view residue, std::string_view atom, std::string_view element) const {
-  const auto entry = radii_.find(is_by_residue_ ? upper_case(residue) + " " + upper_case(atom) : upper_case(element));
+std::optional<double> RadiusSet::find_entry(std::string_view key) const {
+  const auto entry = radii_.find(key);
   return entry == radii_.end() ? std::nullopt : std::optional<double>(entry->second);
+}
+
+std::optional<double> RadiusSet::find(std::string_view residue, std::string_view atom, std::string_view element) const {
+  if (!is_by_residue_) return find_entry(upper_case(element));
+  const std::string own_residue = upper_case(residue);
+  const std::string own_atom = upper_case(atom);
+  const std::string canonical_name(canonical_atom(own_atom));
+  for (const std::string& residue_name : {own_residue, std::string(canonical_residue(own_residue))})
+    for (const std::string& atom_name : {own_atom, canonical_name})
+      if (const auto radius = find_entry(residue_name + " " + atom_name)) return radius;
+  return std::nullopt;
 }
 
 }  // namespace gaussmesh

@@ -1,6 +1,7 @@
 // Radii for atoms that come without: named sets.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,13 +19,16 @@ class RadiusSet {
 
   const std::string& name() const { return name_; }
 
-  /// The radius (A) of an atom; nothing if the set has none. Names in any case.
+  /// The radius (A) of an atom; nothing if the set has none. Names in any case. Where a set by residues has no entry of
+  /// its own for them, names of other programs stand for those of the PDB (residue_names.h).
   std::optional<double> find(std::string_view residue, std::string_view atom, std::string_view element) const;
 
  private:
+  std::optional<double> find_entry(std::string_view key) const;
+
   std::string name_;
   bool is_by_residue_ = false;
-  std::map<std::string, double> radii_;  // by element, or by residue and atom with a blank between
+  std::map<std::string, double, std::less<>> radii_;  // by element, or by residue and atom with a blank between
 };
 
 }  // namespace gaussmesh

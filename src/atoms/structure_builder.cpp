@@ -1,18 +1,13 @@
 #include "atoms/structure_builder.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "atoms/residue_names.h"
 #include "gaussmesh/error.h"
 #include "text/text_lines.h"
 
 namespace gaussmesh {
 namespace {
-
-bool is_water(std::string_view residue) {
-  constexpr std::string_view kWaters[] = {"HOH", "WAT", "DOD", "H2O", "TIP", "TIP3", "SOL"};
-  return std::find(std::begin(kWaters), std::end(kWaters), residue) != std::end(kWaters);
-}
 
 std::string element_text(const AtomSite& site) {
   return site.element.empty() ? "no element in " + std::string(site.element_place) : "element '" + site.element + "'";
@@ -33,7 +28,7 @@ bool StructureBuilder::is_taken(const AtomSite& site) {
     ++other_models_;
     return false;
   }
-  if (is_water(site.residue)) {
+  if (is_water(site.residue, site.name)) {
     ++waters_;
     return false;
   }

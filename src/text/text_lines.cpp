@@ -85,6 +85,12 @@ std::string_view require_text(std::string_view text, std::string_view file) {
   return text;
 }
 
+std::string upper_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), to_upper);
+  return result;
+}
+
 std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) {
     text.remove_prefix(1);

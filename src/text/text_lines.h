@@ -38,6 +38,9 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 constexpr char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+/// `text` with its letters a to z in upper case.
+std::string upper_case(std::string_view text);
+
 /// `text` without the blanks at its two ends.
 std::string_view trim(std::string_view text);
 

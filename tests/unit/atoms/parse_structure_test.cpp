@@ -4,6 +4,7 @@
 
 #include "atoms/pdb_element.h"
 #include "atoms/radii.h"
+#include "atoms/residue_names.h"
 #include "catch2.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/read_atoms.h"
@@ -99,6 +100,42 @@ TEST_CASE("sets of radii") {
   CHECK(charmm.find("A", "H2'", "H") == 1.32);
   CHECK(charmm.find("A", "HO2'", "H") == 0.2245);
   CHECK_THROWS_AS(RadiusSet("bondy"), OptionError);
+}
+
+TEST_CASE("names of other programs have the radii of those that they stand for") {
+  for (const char* set : {"amber", "charmm"}) {
+    const RadiusSet radii(set);
+    const auto same = [&](const char* residue, const char* atom, const char* in_residue, const char* as_atom) {
+      CAPTURE(set, residue, atom);
+      REQUIRE(radii.find(in_residue, as_atom, ""));
+      CHECK(radii.find(residue, atom, "") == radii.find(in_residue, as_atom, ""));
+    };
+    for (const char* name : {"HID", "HIE", "HIP", "HSD", "HSE", "HSP", "hid"}) same(name, "HE1", "HIS", "HE1");
+    for (const char* name : {"CYX", "CYM"}) same(name, "SG", "CYS", "SG");
+    same("ASH", "HD2", "ASP", "HD2");
+    same("GLH", "HE2", "GLU", "HE2");
+    same("LYN", "HZ2", "LYS", "HZ2");
+    same("MSE", "SE", "MET", "SD");
+    same("MSE", "CE", "MET", "CE");
+    same("HSD", "HN", "HIS", "H");
+    same("ALA", "OT1", "ALA", "O");
+    same("ALA", "OT2", "ALA", "OXT");
+    same("DA", "O1P", "DA", "OP1");
+    same("U", "O2P", "U", "OP2");
+    CHECK_FALSE(radii.find("ALA", "SE", ""));
+    CHECK_FALSE(radii.find("LIG", "HN", ""));
+  }
+}
+
+TEST_CASE("water has many names, which are not all its own") {
+  for (const char* residue : {"HOH", "WAT", "DOD", "H2O", "TIP", "TIP3", "SOL", "SPC", "T3P", "TP3", "tip3"})
+    for (const char* atom : {"O", "OW", "OH2", "H1", "H2", "HW1"}) {
+      CAPTURE(residue, atom);
+      CHECK(is_water(residue, atom));
+    }
+  CHECK(is_water("HOH", "D1"));
+  CHECK_FALSE(is_water("T3P", "P"));
+  CHECK_FALSE(is_water("GLY", "O"));
 }
 
 TEST_CASE("elements are in columns 77-78, or in the name") {
