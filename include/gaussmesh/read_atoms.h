@@ -121,7 +121,10 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 ///                      no radius for an atom, or there is none
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii);
 
-/// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does.
+/// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does. Where it
+/// has no label_atom_id or label_comp_id, the tags of the authors (auth_...) are read instead.
+///
+/// @throws InputError  as parse_pdb does, and if the text is no CIF or a column is missing
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii);
 
 }  // namespace gaussmesh

@@ -1,6 +1,8 @@
 #include "atoms/cif_table.h"
 
+#include <algorithm>
 #include <gemmi/cif.hpp>
+#include <optional>
 
 #include "gaussmesh/error.h"
 
@@ -18,15 +20,45 @@ cif::Document read_document(std::string_view text, const std::string& name) {
   }
 }
 
+/// The line of the loop or of the first pair whose tags begin with `prefix`; nothing if there are none.
+std::optional<std::size_t> find_line(const cif::Block& block, const std::string& prefix) {
+  const auto begins_so = [&](const std::string& tag) { return gemmi::istarts_with(tag, prefix); };
+  for (const cif::Item& item : block.items) {
+    const bool is_it = item.type == cif::ItemType::Loop
+                           ? std::any_of(item.loop.tags.begin(), item.loop.tags.end(), begins_so)
+                           : item.type == cif::ItemType::Pair && begins_so(item.pair[0]);
+    if (is_it) return static_cast<std::size_t>(item.line_number);
+  }
+  return std::nullopt;
+}
+
+/// The tag that `column` has in `block`, behind a `?` if it may be missing, as gemmi wants it.
+std::string choose_tag(const cif::Block& block, const std::string& prefix, const CifColumn& column,
+                       const std::string& where) {
+  const bool has_other = !column.other_tag.empty();
+  if (block.has_tag(prefix + column.tag)) return column.tag;
+  if (has_other && block.has_tag(prefix + column.other_tag)) return column.other_tag;
+  if (column.need == CifColumn::Need::kOptional) return "?" + column.tag;
+  throw InputError(where + ": expected a column " + prefix + column.tag +
+                   (has_other ? " or " + prefix + column.other_tag : "") + ", got none");
+}
+
 }  // namespace
 
 CifTable read_cif_table(std::string_view text, std::string_view name, const std::string& prefix,
-                        const std::vector<std::string>& tags) {
-  cif::Document document = read_document(text, std::string(name));
+                        const std::vector<CifColumn>& columns) {
+  const std::string file(name);
+  cif::Document document = read_document(text, file);
+  const std::string loop = prefix.substr(0, prefix.find('.'));
+  const auto line = document.blocks.empty() ? std::nullopt : find_line(document.blocks.front(), prefix);
+  if (!line) throw InputError(file + ": expected a loop " + loop + ", got none");
+  cif::Block& block = document.blocks.front();
+  const std::string where = file + ":" + std::to_string(*line);
+  std::vector<std::string> tags;
+  for (const CifColumn& column : columns) tags.push_back(choose_tag(block, prefix, column, where));
+  cif::Table table = block.find(prefix, tags);
+  if (!table.ok()) throw InputError(where + ": expected all columns of " + loop + " in one loop, got several");
   CifTable result;
-  if (document.blocks.empty()) return result;
-  cif::Table table = document.blocks.front().find(prefix, tags);
-  result.is_there = table.ok();
   for (cif::Table::Row row : table) {
     std::vector<std::string> values(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i)

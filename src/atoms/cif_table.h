@@ -9,16 +9,22 @@
 
 namespace gaussmesh {
 
+/// A column by its tag, or another that is taken where there is none of that.
+struct CifColumn {
+  std::string tag;
+  std::string other_tag;  ///< empty: there is none
+  enum class Need { kRequired, kOptional } need = Need::kRequired;
+};
+
 /// The rows of the columns that were asked for.
 struct CifTable {
-  bool is_there = false;
   std::vector<std::vector<std::string>> rows;  ///< without quotes; `.` and `?` are empty
 };
 
-/// Finds the loop of the first block whose tags are `prefix` and `tags`; a tag that begins with `?` may be missing.
+/// Finds the loop of the first block whose tags begin with `prefix`, and in it the columns, which are optional or not.
 ///
-/// @throws InputError if the text is no CIF; what gemmi says names the line
+/// @throws InputError if the text is no CIF, there is no such loop, or a required column is missing, and names the line
 CifTable read_cif_table(std::string_view text, std::string_view name, const std::string& prefix,
-                        const std::vector<std::string>& tags);
+                        const std::vector<CifColumn>& columns);
 
 }  // namespace gaussmesh

@@ -10,12 +10,20 @@
 namespace gaussmesh {
 namespace {
 
-/// Columns of the table, in the order of their tags; `?` before a tag: it may be missing.
+/// Columns of the table, in the order of kColumns. Tags of authors stand in for those that the dictionary asks for.
 enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kNumber, kInsertion, kX, kY, kZ };
-const std::vector<std::string> kTags = {
-    "label_atom_id",  "label_comp_id", "type_symbol",        "?label_alt_id", "?pdbx_PDB_model_num",
-    "?label_asym_id", "?auth_seq_id",  "?pdbx_PDB_ins_code", "Cartn_x",       "Cartn_y",
-    "Cartn_z"};
+constexpr auto kOptional = CifColumn::Need::kOptional;
+const std::vector<CifColumn> kColumns = {{"label_atom_id", "auth_atom_id"},
+                                         {"label_comp_id", "auth_comp_id"},
+                                         {"type_symbol", ""},
+                                         {"label_alt_id", "", kOptional},
+                                         {"pdbx_PDB_model_num", "", kOptional},
+                                         {"label_asym_id", "auth_asym_id", kOptional},
+                                         {"auth_seq_id", "label_seq_id", kOptional},
+                                         {"pdbx_PDB_ins_code", "", kOptional},
+                                         {"Cartn_x", ""},
+                                         {"Cartn_y", ""},
+                                         {"Cartn_z", ""}};
 
 double coordinate(const std::string& text, const std::string& where) {
   const auto value = parse_number(text);
@@ -27,10 +35,7 @@ double coordinate(const std::string& text, const std::string& where) {
 
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii) {
   StructureBuilder builder(name, radii);
-  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kTags);
-  if (!table.is_there) {
-    throw InputError(std::string(name) + ": expected a loop _atom_site with coordinates, got none");
-  }
+  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kColumns);
   std::size_t number = 0;
   for (const std::vector<std::string>& row : table.rows) {
     const std::string where = std::string(name) + ": atom " + std::to_string(++number);

@@ -290,6 +290,33 @@ TEST_CASE("mmCIF that is none") {
   CHECK_THAT(error_of_cif(text), ContainsSubstring("a.cif: atom 1: expected a coordinate"));
 }
 
+TEST_CASE("mmCIF whose table lacks a column") {
+  const std::string text = mmcif_text({kCarbon});
+  const auto without = [&](const std::string& tag, const std::string& other) {
+    std::string changed = text;
+    changed.replace(changed.find("_atom_site." + tag), 11 + tag.size(), "_atom_site." + other);
+    return changed;
+  };
+  const auto error_of_cif = [](const std::string& cif) {
+    try {
+      parse_mmcif(cif, "a.cif", "bondi");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(error_of_cif(without("Cartn_y", "Cartn_u")) == "a.cif:3: expected a column _atom_site.Cartn_y, got none");
+  CHECK(error_of_cif(without("type_symbol", "type")) == "a.cif:3: expected a column _atom_site.type_symbol, got none");
+  CHECK(error_of_cif(without("label_atom_id", "id")) ==
+        "a.cif:3: expected a column _atom_site.label_atom_id or _atom_site.auth_atom_id, got none");
+  CHECK(error_of_cif(text + "\n_atom_site.auth_seq_id 7\n") != "no error");
+  for (const char* name : {"atom_id", "comp_id", "asym_id"}) {
+    const std::string tag = name;
+    CHECK(parse_mmcif(without("label_" + tag, "auth_" + tag), "a.cif", "amber").atoms[0].radius == 1.908);
+  }
+  CHECK(parse_mmcif(without("auth_seq_id", "label_seq_id"), "a.cif", "amber").atoms.size() == 1);
+}
+
 TEST_CASE("which format a file is in") {
   const testing::Folder folder;
   std::ofstream(folder / "a.pdb") << pdb_line(kCarbon);
