@@ -6,10 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "gaussmesh/atom.h"

@@ -1,4 +1,4 @@
-// The errors that gaussmesh throws, one class for each who can mend them.
+// The errors that gaussmesh throws, one class for each party that can mend them.
 //
 // Messages read `where: what was expected, got 'what'`, with a remedy where there is one. Only the app turns
 // them into exit codes.

@@ -52,7 +52,7 @@ std::vector<std::uint32_t> find_charges_outside(const TriangleMesh& mesh, const 
 /// Vertices that are nearly in one place.
 struct NearVertices {
   std::size_t pairs = 0;        ///< nearer to each other than asked for, joined by an edge or not
-  std::size_t short_edges = 0;  ///< edges of that length
+  std::size_t short_edges = 0;  ///< edges shorter than that
   std::size_t crowded = 0;      ///< pairs that are also nearer than kCrowded times the mean edge at either vertex
   std::vector<std::array<std::uint32_t, 2>> examples;  ///< the first few pairs in order of their numbers, lower first
 };

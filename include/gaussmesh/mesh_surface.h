@@ -27,7 +27,9 @@ struct MeshOptions {
   int threads = 0;                 ///< to 4096; 0: as many as there are processors
   bool allow_uncertified = false;  ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
-  std::function<void(double share_done)> on_improving;  ///< called often within the stage `improve`, on any thread
+  std::function<void(double share_done)>
+      on_improving;  ///< called often within the stage `improve`: on any thread, on several
+                     ///< at a time, and not always in rising order
 };
 
 /// The spacing (A) that gives about this many vertices per A^2: equilateral triangles of edge s have 2 / (sqrt(3) s^2).
@@ -90,7 +92,7 @@ struct MeshResult {
 /// to within 1e-6 A, and it has the components, cavities and handles of the exact surface: of the level
 /// MeshReport::isovalue_used, which is not c only where `allow_uncertified` was needed. Same bits for any number of
 /// threads and any order of the atoms. Time and memory grow with the area of the surface over the square of the
-/// spacing, and with the number of atoms.
+/// spacing, and with the number of atoms. Thread-safe.
 ///
 /// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
 /// @throws InputError       if there are no atoms, or one with a coordinate or radius that cannot be

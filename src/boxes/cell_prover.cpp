@@ -100,7 +100,8 @@ CellCertificate CellProver::certify_by_eighths(const NearAtoms& atoms, const Loc
   for (const int direction : promising_directions(eighths, axes)) {
     const int axis = direction / 2, sign = direction % 2 == 1 ? 1 : -1;
     const auto look = [&](const Eighth& eighth) { return (eighth.part.proven >> direction & 1) != 0; };
-    if (!refute(eighths, along_axis(axis, sign), look)) return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
+    if (!find_counterexample(eighths, along_axis(axis, sign), look))
+      return {Kind::kMonotone, along_axis(axis, sign), 1u << axis};
   }
   return certify_aslant(eighths);
 }
@@ -137,7 +138,7 @@ CellCertificate CellProver::certify_aslant(const std::array<Eighth, 8>& eighths)
     const auto look = [&](const Eighth& eighth) {
       return eighth.part.proven == kAllDirections || eighth.model.over_all().proves(slanted);
     };
-    const std::optional<Vec3> against = refute(eighths, slanted, look);
+    const std::optional<Vec3> against = find_counterexample(eighths, slanted, look);
     if (!against) return {CellCertificate::Kind::kMonotone, slanted, 0};
     cone.add(*against);
   }
@@ -145,12 +146,12 @@ CellCertificate CellProver::certify_aslant(const std::array<Eighth, 8>& eighths)
 }
 
 template <typename Look>
-std::optional<Vec3> CellProver::refute(const std::array<Eighth, 8>& eighths, const Direction& direction,
-                                       const Look& holds_at_a_look) {
+std::optional<Vec3> CellProver::find_counterexample(const std::array<Eighth, 8>& eighths, const Direction& direction,
+                                                    const Look& holds_at_a_look) {
   for (const Eighth& eighth : eighths) {
     if (holds_at_a_look(eighth)) continue;
-    const std::optional<Vec3> against =
-        depth_ <= 1 ? eighth.model.over_all().middle_gradient() : refute_in_parts(eighth.model, direction, depth_ - 1);
+    const std::optional<Vec3> against = depth_ <= 1 ? eighth.model.over_all().middle_gradient()
+                                                    : find_counterexample_in_parts(eighth.model, direction, depth_ - 1);
     if (against) return against;
   }
   return std::nullopt;
@@ -172,7 +173,8 @@ CellProver::Part CellProver::part_of(unsigned directions, bool is_surely_crossed
   return part;
 }
 
-std::optional<Vec3> CellProver::refute_in_parts(const LocalModel& model, const Direction& direction, int depth) {
+std::optional<Vec3> CellProver::find_counterexample_in_parts(const LocalModel& model, const Direction& direction,
+                                                             int depth) {
   const Eighths eighths = eighths_of(model.box());
   const unsigned proven = model.prove_along(eighths, direction);
   for (int child = 0; child < 8; ++child) {
@@ -183,7 +185,7 @@ std::optional<Vec3> CellProver::refute_in_parts(const LocalModel& model, const D
     if (view.proves(direction)) continue;
     const bool is_refuted = proven_sign(view.slope(direction)) == -direction.sign && view.is_surely_crossed();
     if (depth <= 1 || is_refuted) return view.middle_gradient();
-    if (const std::optional<Vec3> against = refute_in_parts(closer, direction, depth - 1)) return against;
+    if (const std::optional<Vec3> against = find_counterexample_in_parts(closer, direction, depth - 1)) return against;
   }
   return std::nullopt;
 }

@@ -75,14 +75,14 @@ class CellProver {
   /// not, one nearer to the gradient that was against it.
   CellCertificate certify_aslant(const std::array<Eighth, 8>& eighths);
 
-  /// Proves that phi passes c as the direction says wherever it does in the cell, given what tells so at once of an
-  /// eighth. @return nothing, or the gradient in a box that speaks against it
+  /// Looks for a part of the cell where phi may pass c against the direction, given what tells at once of an eighth that
+  /// there is none. @return the gradient there; nothing: the direction is proven
   template <typename Look>
-  std::optional<Vec3> refute(const std::array<Eighth, 8>& eighths, const Direction& direction,
-                             const Look& holds_at_a_look);
+  std::optional<Vec3> find_counterexample(const std::array<Eighth, 8>& eighths, const Direction& direction,
+                                          const Look& holds_at_a_look);
 
   /// The same through the parts of the model's box. @param depth  how often it may be halved
-  std::optional<Vec3> refute_in_parts(const LocalModel& model, const Direction& direction, int depth);
+  std::optional<Vec3> find_counterexample_in_parts(const LocalModel& model, const Direction& direction, int depth);
 
   void count_box(int depth) { ++boxes_by_depth_[std::min<std::size_t>(15, depth_ - depth + 1)]; }
 

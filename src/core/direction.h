@@ -1,4 +1,4 @@
-// Directions along which surface is a graph: along an axis, or slanted from one.
+// Directions along which the surface is a graph: along an axis, or slanted from one.
 #pragma once
 
 #include "core/exact_plane.h"

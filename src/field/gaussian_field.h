@@ -15,6 +15,7 @@ namespace gaussmesh {
 /// computed from the field has the same bits for any order of the atoms in the input. Thread-safe once built.
 class GaussianField {
  public:
+  /// @param atoms     at least one
   /// @param decay     d, 1/A^2, > 0
   /// @param isovalue  c, > 0
   /// Cost: O(n log n).

@@ -1,4 +1,4 @@
-// Triangles for the surface in ONE cell that is not single-valued along any direction.
+// Triangles for the surface in one cell where it is not single-valued along any direction.
 #pragma once
 
 #include <optional>

@@ -71,8 +71,7 @@ double mean_of(const DistanceSums& sums, std::size_t count) {
 }
 
 VertexDistance distance_of_vertices(const TriangleMesh& mesh, const AtomTree& tree, double decay, double isovalue) {
-  constexpr double kReach =
-      0.01;  // widths of a Gaussian: vertices are on the surface, or where they are does not hurry
+  constexpr double kReach = 0.01;  // widths of a Gaussian; vertices farther off, which are few, take the slow path
   const Level level{decay, isovalue, kReach / std::sqrt(decay)};
   const DistanceSums sums = sum_over_feet(
       tree, level, mesh.vertices.size(), [&](std::uint32_t v) { return mesh.vertices[v]; },

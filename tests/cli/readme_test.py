@@ -7,6 +7,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -29,7 +30,23 @@ def pdb_text(pqr):
     return "".join([*lines, "TER\n", "END\n"])
 
 
+def numbers_of(text):
+    """All numbers in a text but those with a unit of time or memory, which depend on the machine."""
+    words = [word.replace("triangles", "") for word in re.sub(r"[\d.]+ (s|MB)\b", "", text).split()]
+    return [float(word) for word in (word.strip(",:;") for word in words) if re.fullmatch(r"[\d.]+", word)]
+
+
 class Readme(CliTest):
+    def test_the_first_mesh_is_what_it_says(self):
+        text = (settings.data.parent / "README.md").read_text(encoding="utf-8")
+        said = text.split("For `data/fas2.pqr` it says\n\n", 1)[1].split("\n\n", 1)[0]
+        out = self.expect(0, self.molecule("fas2"), "--d", "0.6", "--c", "1.7", "-o", "out.off").stdout
+        wanted, got = numbers_of(said), numbers_of(out)
+        self.assertGreater(len(wanted), 12)
+        self.assertEqual(len(wanted), len(got), out)
+        for one, other in zip(wanted, got):  # processors round differently, and a triangle more or less follows
+            self.assertAlmostEqual(one, other, delta=0.01 * one, msg=out)
+
     def test_commands_run_as_they_stand(self):
         root = settings.data.parent
         text = (root / "README.md").read_text(encoding="utf-8")
