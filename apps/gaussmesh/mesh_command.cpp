@@ -15,8 +15,8 @@ namespace gaussmesh::app {
 namespace {
 
 bool is_standard_output_taken(const MeshCommand& command) {
-  return command.report == "-" ||
-         std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end();
+  return is_standard_output(command.report) ||
+         std::any_of(command.outputs.begin(), command.outputs.end(), is_standard_output);
 }
 
 void require_sense(const MeshCommand& command) {
@@ -32,7 +32,10 @@ void require_sense(const MeshCommand& command) {
 
 /// Where temporary files for an output belong.
 std::filesystem::path folder_of(const std::filesystem::path& output) {
-  if (output == "-") return std::filesystem::temp_directory_path();
+  std::error_code error;
+  const bool is_pipe_or_device =
+      std::filesystem::exists(output, error) && !std::filesystem::is_regular_file(output, error);
+  if (output == "-" || is_pipe_or_device) return std::filesystem::temp_directory_path();
   return output.has_parent_path() ? output.parent_path() : ".";
 }
 

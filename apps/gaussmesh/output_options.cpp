@@ -27,8 +27,9 @@ void require_writable_outputs(const std::vector<std::string>& outputs, const std
   const auto require_new = [&](const std::filesystem::path& file) {
     require_other_files(inputs, {file.string()});
     std::error_code error;
-    const std::filesystem::path place =
+    std::filesystem::path place =
         file == "-" ? file : std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    if (error) place = file;  // of a pipe of the shell, whose link in /dev/fd leads nowhere
     const bool is_device = std::filesystem::is_character_file(place, error);
     if (!seen.insert(place).second && !is_device) {
       throw OptionError("-o: expected each output once, got '" + file.string() + "' again");
@@ -43,6 +44,10 @@ void require_writable_outputs(const std::vector<std::string>& outputs, const std
   if (report.empty()) return;
   require_new(report);
   require_writable(report);
+}
+
+bool is_standard_output(const std::string& output) {
+  return output == "-" || output == "/dev/stdout" || output == "/dev/fd/1" || output == "/proc/self/fd/1";
 }
 
 void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {

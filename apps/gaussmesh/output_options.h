@@ -22,6 +22,9 @@ WriteOptions writing_options(WriteOptions writing, bool no_header);
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
                               const WriteOptions& writing, const std::vector<std::string>& inputs);
 
+/// Whether the name is one of those that standard output goes by.
+bool is_standard_output(const std::string& output);
+
 /// Keeps what is read from being replaced by what is written; names may be empty. @throws OptionError where a file is
 /// both
 void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);

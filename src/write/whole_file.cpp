@@ -20,13 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether something is there that is written to and not replaced.
-bool is_written_in_place(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
-}
-
 /// What a chain of links leads to, which need not be there.
 fs::path end_of_links(fs::path path) {
   constexpr int kMostLinks = 40;  // as in Linux
@@ -36,6 +29,16 @@ fs::path end_of_links(fs::path path) {
     path = next.is_absolute() ? next : path.parent_path() / next;
   }
   return path;
+}
+
+/// Whether something is there that is written to and not replaced: devices, pipes, and what has no name in any folder.
+///
+/// The system follows the links of /dev/fd to what is open, whatever their text says: `pipe:[17]`, or a name that has
+/// been taken away. So the path itself tells what is there, and not where its links seem to lead.
+bool is_written_in_place(const fs::path& path, const fs::path& target) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !(fs::is_regular_file(status) && fs::equivalent(path, target, error));
 }
 
 std::string random_letters() {
@@ -58,17 +61,17 @@ WholeFile::WholeFile(const fs::path& path) : path_(path), target_(end_of_links(p
     return;
   }
   std::error_code error;
+  if (fs::is_directory(path, error)) {
+    throw InputError(path.string() + ": expected a file to write, got a directory");
+  }
+  if (is_written_in_place(path, target_)) {
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail("cannot be opened");
+    return;
+  }
   if (fs::is_symlink(target_, error)) {
     errno = ELOOP;
     fail("cannot be found");
-  }
-  if (fs::is_directory(target_, error)) {
-    throw InputError(path.string() + ": expected a file to write, got a directory");
-  }
-  if (is_written_in_place(target_)) {
-    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail("cannot be opened");
-    return;
   }
   if (fs::exists(target_, error) && ::access(target_.c_str(), W_OK) != 0) fail("cannot be replaced");
   make_temporary();

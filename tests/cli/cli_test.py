@@ -470,6 +470,21 @@ class Running(CliTest):
             self.expect(0, self.molecule("methanol"), "-o", pipe, "--format", "off", "-o", self.mesh)
             self.assertEqual(reader.communicate()[0], self.mesh.read_bytes())
 
+    @unittest.skipUnless(sys.platform == "linux", "elsewhere the names in /dev/fd are no links")
+    def test_pipes_of_the_shell(self):
+        """`>(command)` is a name in /dev/fd; what is said goes elsewhere where standard output is the mesh."""
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        run = f"{settings.program} {self.molecule('methanol')} --format off --max-memory 1G"
+        for command in [f"{run} -o >(cat > a.off) -o >(cat > b.off)",
+                        f"{run} -o /dev/stdout | cat > a.off; {run} -o /dev/fd/1 | cat > b.off"]:
+            made = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            until = time.monotonic() + 20  # the shell does not wait for the commands in >()
+            for name in ["a.off", "b.off"]:
+                while (self.folder / name).stat().st_size < self.mesh.stat().st_size and time.monotonic() < until:
+                    time.sleep(0.01)
+                self.assertEqual((self.folder / name).read_bytes(), self.mesh.read_bytes(), command)
+
     def test_full_disk(self):
         """The first file fits the limit, the second does not: neither appears."""
         self.mesh.write_text("an older mesh\n")

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <thread>
 
 #include "catch2.h"
@@ -73,6 +74,31 @@ TEST_CASE("a pipe takes the output as it comes") {
   reader.join();
   CHECK(got == "through");
   CHECK(fs::is_fifo(folder / "pipe"));
+}
+
+TEST_CASE("what is open has a name in /dev/fd, as the shell gives it for >(command)") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  const std::string name = "/dev/fd/" + std::to_string(ends[1]);
+  require_writable(name);
+  write_text("through", name);
+  ::close(ends[1]);
+  char got[16];
+  CHECK(::read(ends[0], got, sizeof got) == 7);
+  CHECK(::read(ends[0], got, sizeof got) == 0);
+  ::close(ends[0]);
+  CHECK_THROWS_AS(require_writable(name), InputError);
+}
+
+TEST_CASE("an open file that no folder names is written to where it is") {
+  const Folder folder;
+  std::FILE* const file = std::fopen((folder / "gone").c_str(), "w+");
+  fs::remove(folder / "gone");
+  write_text("text", "/dev/fd/" + std::to_string(::fileno(file)));
+  char got[16];
+  CHECK(std::fread(got, 1, sizeof got, file) == 4);
+  std::fclose(file);
+  CHECK(folder.files() == 0);
 }
 
 TEST_CASE("a symbolic link stays, and what it points to is replaced") {
