@@ -6,12 +6,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <memory>
 #include <new>
 
 #include "check_command.h"
 #include "compare_command.h"
+#include "config_file.h"
 #include "convert_command.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
@@ -115,28 +116,10 @@ std::string nearest_to(const CLI::App& program, const std::string& word) {
   return gaussmesh::nearest_name(word.substr(0, word.find('=')), names);
 }
 
-/// What is wrong with a line of the configuration file. The library names the line's key alone, as the last word.
-std::string config_message(const CLI::App& program, const std::string& what) {
-  const auto name = program.get_config_ptr()->as<std::string>();
-  const std::string key = what.substr(what.find_last_of(' ') + 1);
-  std::ifstream file(name);
-  std::size_t number = 0, found = 0;
-  for (std::string line; found == 0 && std::getline(file, line);) {
-    ++number;
-    if (line.find(key) != std::string::npos) found = number;
-  }
-  const std::string option = nearest_to(program, "--" + key);
-  return name + ":" + (found > 0 ? std::to_string(found) + ":" : "") + " expected an option of gaussmesh, got '" + key +
-         "'; did you mean '" + option.substr(option.find_first_not_of('-')) + "'?";
-}
-
 /// Says what is wrong with the command line, and what may have been meant.
 int fail_to_parse(const CLI::App& program, const CLI::ParseError& error, const std::string& first_word) {
-  if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr) {
-    std::cerr << "gaussmesh: " << config_message(program, error.what()) << "\n";
-    return kWrongUse;
-  }
-  std::cerr << "gaussmesh: " << error.what();
+  const auto config = std::dynamic_pointer_cast<const ConfigFile>(program.get_config_formatter());
+  std::cerr << "gaussmesh: " << (config ? config->place_of(error.what()) : "") << error.what();
   const std::vector<std::string> extras = program.remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
@@ -176,7 +159,7 @@ int run(int argc, char** argv) {
       .set_config("--config", "", "read options from a TOML file; those on the command line come first (default: none)")
       ->type_name("FILE")
       ->group("Running");
-  program.allow_config_extras(CLI::config_extras_mode::error);
+  program.config_formatter(std::make_shared<ConfigFile>(program));
   CheckOptions check;
   CLI::App* check_command = add_check_command(program, check);
   ConvertOptions convert;

@@ -405,6 +405,47 @@ class Running(CliTest):
                          "'decay'?\n")
         self.expect(BAD_INPUT, self.molecule("methanol"), "--config", "none.toml")
 
+    def test_the_command_line_comes_before_the_configuration_file(self):
+        """Also where the file has what excludes an option on the line."""
+        def options(text, *arguments):
+            self.write("run.toml", text)
+            self.expect(0, self.molecule("methanol"), "--config", "run.toml", "-o", self.mesh, "--report", "r.json",
+                        *arguments)
+            return json.loads((self.folder / "r.json").read_text())["options"]
+
+        said = options('preset = "vdw"\n', "--d", 0.5)
+        self.assertEqual((said["decay_per_A2"], said["isovalue"]), (0.5, 1.7))
+        said = options("d = 0.5\nc = 1.2\n", "--preset", "vdw")
+        self.assertEqual((said["decay_per_A2"], said["isovalue"]), (2.0, 1.0))
+        self.assertEqual(options("decay = 0.5\n", "--d", 0.7)["decay_per_A2"], 0.7)
+        self.assertEqual(options("spacing = 1\n", "--density", 2)["spacing_A"], (2 / (3**0.5 * 2)) ** 0.5)
+        self.assertEqual(options("density = 2\n", "--spacing", 1)["spacing_A"], 1.0)
+        self.assertEqual(options("tolerance = 0.5\n", "--raw")["tolerance_A"], 0.0)
+        self.assertIs(options("raw = true\n", "--tolerance", 0.5)["improve"], True)
+        self.assertIs(options("raw = false\ntolerance = 0.5\n")["improve"], True)
+        self.write("run.toml", f'molecule = "{self.molecule("methanol")}"\nquiet = true\no = "{self.mesh}"\n')
+        self.assertIn("cells", self.expect(0, "--config", "run.toml", "--verbose").stdout)
+
+    def test_the_configuration_file_is_named_with_its_line(self):
+        molecule = self.molecule("methanol")
+        for text, said in [("# no option\n\nspacing = 0\n", "3: --spacing: expected a number from 0.01 to 1000, got '0'"),
+                           ('preset = "vdv"\n', "1: --preset: expected ses-volume"),
+                           ("c = 1.2\nthreads = 1.5\n", "2: Could not convert: --threads = 1.5"),
+                           ("quiet = maybe\n", "1: "),
+                           ('decay = 0.5\nc = 1\npreset = "vdw"\n', "[13]: --(d excludes --preset|preset excludes --d)"),
+                           ("d = 0.5\nc = 1\ndecay = 0.6\n", "3: expected each option once, got 'decay' again"),
+                           ("d = 0.5\nc = 1\nd = 0.6\n", "3: expected each option once, got 'd' again"),
+                           ("c = 1\n[foo]\nbar = 1\n", r"2: expected options without sections, got '\[foo\]'"),
+                           ("[check]\njson = \"x\"\n", "1: expected options without sections"),
+                           ("c.d = 1\n", "1: expected an option of gaussmesh, got 'c.d'"),
+                           ("help = true\n", "1: expected an option of gaussmesh, got 'help'")]:
+            self.write("run.toml", text)
+            error = self.expect(WRONG_USE, molecule, "--config", "run.toml", "-o", self.mesh).stderr
+            self.assertRegex(error, r"^gaussmesh: run\.toml:" + said)
+        self.write("run.toml", "spacing = 1\n")
+        error = self.expect(WRONG_USE, molecule, "--config", "run.toml", "-o", self.mesh, "--spacing", 0).stderr
+        self.assertRegex(error, "^gaussmesh: --spacing: ")
+
     def test_the_nearest_name_is_told(self):
         for word, meant in [("--tread", "--threads"), ("--isovalu", "--isovalue"), ("--spacin=3", "--spacing")]:
             self.assertIn(f"'{meant}'", self.expect(WRONG_USE, self.molecule("methanol"), word).stderr)
