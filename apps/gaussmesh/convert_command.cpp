@@ -1,10 +1,20 @@
 #include "convert_command.h"
 
+#include <algorithm>
+
 #include "gaussmesh/error.h"
 #include "output_options.h"
 #include "report_parts.h"
 
 namespace gaussmesh::app {
+namespace {
+
+bool needs_normals(const std::vector<std::string>& outputs, const WriteOptions& writing) {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [&](const std::string& output) { return format_of(output, writing).held != HeldData::kNothing; });
+}
+
+}  // namespace
 
 CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   CLI::App* command = program.add_subcommand("convert", "write a mesh in other formats");
@@ -22,7 +32,8 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   command->footer(
-      "VTP is written and not read. Without a molecule, nearest atoms are those that the input has, if any.\n\n"
+      "VTP is written and not read. Without a molecule, nearest atoms are those that the input has, if any. Normals\n"
+      "that it has not are averaged over the triangles.\n\n"
       "Examples:\n"
       "  gaussmesh convert out.vert out.ply out.vtp\n"
       "  gaussmesh convert out.off out.vert --molecule in.pqr --no-header\n"
@@ -44,6 +55,9 @@ int run_convert(const ConvertOptions& options) {
   if (options.molecule) {
     const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading, false);
     file.data.atoms = find_nearest_atoms(file.mesh, atoms, 0);
+  }
+  if (file.data.normals.empty() && needs_normals(options.outputs, writing)) {
+    file.data.normals = average_normals(file.mesh);
   }
   OutputFiles files;
   for (const std::string& output : options.outputs) files.add_mesh(file.mesh, file.data, output, writing);

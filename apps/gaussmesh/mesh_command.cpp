@@ -91,7 +91,7 @@ VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>&
   VertexData data;
   data.normals = result.normals;
   for (const std::string& output : command.outputs) {
-    if (!format_of(output, writing).holds_vertex_data) continue;
+    if (format_of(output, writing).held != HeldData::kAll) continue;
     data.atoms = find_nearest_atoms(result.mesh, atoms, command.options.threads);
     data.components = find_vertex_components(result.mesh, result.report.check);
     break;

@@ -14,12 +14,15 @@
 
 namespace gaussmesh {
 
+/// How much of VertexData a format holds.
+enum class HeldData { kNothing, kNormals, kAll };
+
 /// A format that meshes can be written in.
 struct MeshFormat {
   std::string_view name;                     ///< what WriteOptions::format calls it
   std::vector<std::string_view> extensions;  ///< names of files that mean this format, with their dot
   std::string_view description;              ///< one line: what it holds, and who reads it
-  bool holds_vertex_data = false;            ///< more of it than normals
+  HeldData held = HeldData::kNothing;        ///< of what write_mesh() is given
 };
 
 /// All of them. Coordinates have nine decimals in text and 64 bits in binary formats, so that a reader gets back

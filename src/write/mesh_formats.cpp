@@ -9,21 +9,27 @@
 namespace gaussmesh {
 namespace {
 
+using enum HeldData;
+
 constexpr std::array<FormatEntry, 10> kFormats = {{
-    {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", false, {{{"", write_off}}}},
+    {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", kNothing, {{{"", write_off}}}},
     {"msms",
      {".vert", ".face"},
      "two files, with normals and nearest atoms (TABI-PB, PyGBe, pbj, VMD)",
-     true,
+     kAll,
      {{{".vert", write_msms_vertices}, {".face", write_msms_faces}}}},
-    {"ply", {".ply"}, "binary, with normals, nearest atoms, components (MeshLab)", true, {{{"", write_ply_binary}}}},
-    {"ply-ascii", {}, "the same as text", true, {{{"", write_ply_ascii}}}},
-    {"obj", {".obj"}, "with normals (ChimeraX, Blender)", false, {{{"", write_obj}}}},
-    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", false, {{{"", write_stl}}}},
-    {"gmsh22", {".msh"}, "Gmsh 2.2, a tag for each component, vertex data (bempp)", true, {{{"", write_gmsh_22}}}},
-    {"gmsh41", {}, "the same as Gmsh 4.1", true, {{{"", write_gmsh_41}}}},
-    {"smesh", {".smesh"}, "TetGen, with a hole in each cavity, a region in each solid", false, {{{"", write_smesh}}}},
-    {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", true, {{{"", write_vtp}}}},
+    {"ply", {".ply"}, "binary, with normals, nearest atoms, components (MeshLab)", kAll, {{{"", write_ply_binary}}}},
+    {"ply-ascii", {}, "the same as text", kAll, {{{"", write_ply_ascii}}}},
+    {"obj", {".obj"}, "with normals (ChimeraX, Blender)", kNormals, {{{"", write_obj}}}},
+    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", kNothing, {{{"", write_stl}}}},
+    {"gmsh22", {".msh"}, "Gmsh 2.2, a tag for each component, vertex data (bempp)", kAll, {{{"", write_gmsh_22}}}},
+    {"gmsh41", {}, "the same as Gmsh 4.1", kAll, {{{"", write_gmsh_41}}}},
+    {"smesh",
+     {".smesh"},
+     "TetGen, with a hole in each cavity, a region in each solid",
+     kNothing,
+     {{{"", write_smesh}}}},
+    {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", kAll, {{{"", write_vtp}}}},
 }};
 
 std::string lower_case(std::string text) {
@@ -61,7 +67,7 @@ const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> formats = [] {
     std::vector<MeshFormat> list;
     for (const FormatEntry& entry : kFormats) {
-      list.push_back({entry.name, {}, entry.description, entry.holds_vertex_data});
+      list.push_back({entry.name, {}, entry.description, entry.held});
       for (const std::string_view extension : entry.extensions)
         if (!extension.empty()) list.back().extensions.push_back(extension);
     }

@@ -20,7 +20,7 @@ struct FormatEntry {
   std::string_view name;
   std::array<std::string_view, 2> extensions;
   std::string_view description;
-  bool holds_vertex_data;
+  HeldData held;
   std::array<FormatPart, 2> parts;
 };
 

@@ -252,6 +252,21 @@ class Convert(FormatTest):
         self.expect(0, "convert", "m.obj", "n.vert", "--molecule", self.molecule("fas2"))
         self.assertEqual((self.folder / "n.vert").read_bytes(), FormatTest.made["m.vert"])
 
+    def test_normals_that_a_file_has_not_are_averaged(self):
+        self.expect(0, "convert", "m.off", "n.ply", "n.obj", "n.vtp", "n.msh", "n.vert", "n.off")
+        vertices, _ = self.msms("n")
+        self.assertGreater(numpy.einsum("ij,ij->i", vertices[:, 3:6], self.msms("m")[0][:, 3:6]).min(), 0.7)
+        data = meshio.read(self.folder / "n.ply").point_data
+        normals = numpy.stack([data["nx"], data["ny"], data["nz"]], axis=1)
+        reader = vtk.vtkXMLPolyDataReader()
+        reader.SetFileName(str(self.folder / "n.vtp"))
+        reader.Update()
+        for got in [normals, meshio.read(self.folder / "n.obj").point_data["obj:vn"],
+                    meshio.read(self.folder / "n.msh").point_data["normal"],
+                    vtk_to_numpy(reader.GetOutput().GetPointData().GetNormals())]:
+            numpy.testing.assert_allclose(got, vertices[:, 3:6], atol=2e-9)
+        self.assertEqual((self.folder / "n.off").read_bytes(), FormatTest.made["m.off"])
+
     def test_files_that_other_programs_wrote(self):
         mesh = meshio.Mesh(self.points, [("triangle", self.triangles)])
         for name, options in [("o.off", {}), ("o.ply", {"binary": True}), ("p.ply", {"binary": False}), ("o.obj", {}),
