@@ -78,14 +78,18 @@ void handle_signals() {
 
 /// Lets threads sleep while they wait for others. Left to itself libgomp lets them spin, and where other programs run
 /// too, they keep the processor from the thread that they wait for: beside one other busy program on two processors a
-/// small protein took 5 to 7 times as long. The environment is read once, before main(): so the program begins anew.
+/// small protein took 5 to 7 times as long. The environment is read once, before main(): so the program begins anew,
+/// by the name of its file, which is what ps and top show.
 void let_waiting_threads_sleep(char** argv) {
 #ifdef __linux__
   if (::getenv("OMP_WAIT_POLICY") != nullptr || ::getenv("GOMP_SPINCOUNT") != nullptr) return;
   std::error_code error;
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).filename().string();
-  if (error || program.starts_with("ld-")) return;  // the loader was told to run this: it would take other words
-  if (::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) ::execv("/proc/self/exe", argv);  // where it fails they spin
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  // Where the loader was told to run this, it would take other words.
+  if (error || program.filename().string().starts_with("ld-")) return;
+  if (::setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+  ::execv(program.c_str(), argv);
+  ::execv("/proc/self/exe", argv);  // the file has gone meanwhile; where this fails too, they spin
 #else
   static_cast<void>(argv);
 #endif

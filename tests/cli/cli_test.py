@@ -371,7 +371,7 @@ class Running(CliTest):
 
     @unittest.skipUnless(sys.platform == "linux", "elsewhere the program begins only once")
     def test_threads_sleep_while_they_wait(self):
-        """The program gives itself the policy, unless the user has said something."""
+        """The program gives itself the policy, unless the user has said something, and keeps its name."""
         def policy(**said):
             environment = {k: v for k, v in os.environ.items() if k not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
             with subprocess.Popen([settings.program, self.molecule("fas2"), "--spacing", "0.1", "-o", self.mesh],
@@ -381,7 +381,9 @@ class Running(CliTest):
                     found = re.search(rb"OMP_WAIT_POLICY=(\w+)", pathlib.Path(f"/proc/{process.pid}/environ").read_bytes())
                     if found:
                         break
+                name = pathlib.Path(f"/proc/{process.pid}/comm").read_text(encoding="utf-8").strip()
                 process.terminate()
+            self.assertEqual(name, settings.program.name[:15])
             return found and found[1].decode()
         self.assertEqual(policy(), "passive")
         self.assertEqual(policy(OMP_WAIT_POLICY="active"), "active")
