@@ -18,11 +18,13 @@ struct MeshFile {
 
 /// Reads a mesh of triangles, plain or gzipped.
 ///
-/// PLY and Gmsh files are known by their first bytes; OBJ, STL, TetGen .smesh and MSMS by their extension, in any
-/// case, before a `.gz` if there is one; every other file is read as OFF. Of MSMS either file may be named: both
-/// are read.
+/// PLY and Gmsh files are known by their first bytes; OFF, OBJ, STL, TetGen .smesh and MSMS by their extension, in any
+/// case, before a `.gz` if there is one; files of any other name, and streams, by what is in them, which tells all but
+/// MSMS. Of MSMS either file may be named: both are read.
 ///
-/// - OFF: comments, blank lines and colours after a face are passed over.
+/// - OFF: comments, blank lines, colours of faces, and colours and places in a texture of vertices (`COFF`, `STOFF`) are
+///   passed over. Normals of `NOFF` and `CNOFF` are kept. Binary OFF, and vertices in four or more dimensions, are
+///   refused.
 /// - PLY: ascii and binary of either byte order; other properties and elements are passed over.
 /// - OBJ: `v`, `vn` and `f`, the rest is passed over. Normals are kept where every corner has that of its vertex.
 /// - STL: binary and ascii. Corners at the very same place become one vertex, in the order in which they first

@@ -81,8 +81,9 @@ class MeshLines {
   /// As many things of at least `bytes` as the text can hold: what it announces is believed only so far.
   std::size_t at_most(std::size_t announced, std::size_t bytes) const { return std::min(announced, size_ / bytes + 1); }
 
-  [[noreturn]] void fail(std::string_view expected) const {
-    fail_at({name_, std::max<std::size_t>(lines_.number(), 1)}, expected, trim(line_));
+  /// `remedy` brings its own "; ".
+  [[noreturn]] void fail(std::string_view expected, std::string_view remedy = {}) const {
+    fail_at({name_, std::max<std::size_t>(lines_.number(), 1)}, expected, trim(line_), remedy);
   }
 
  private:
@@ -103,9 +104,15 @@ inline Normal to_normal(const Point& p) {
   return {static_cast<float>(p[0] / scale), static_cast<float>(p[1] / scale), static_cast<float>(p[2] / scale)};
 }
 
-MeshFile parse_gmsh(std::string_view text, std::string_view name);
+/// Throws InputError if there is nothing but blanks.
+void require_content(std::string_view bytes, std::string_view name);
+
+/// Whether the length is that of the binary STL that is announced there: headers may begin with "solid" too.
+bool is_binary_stl(std::string_view bytes);
+
+MeshFile parse_gmsh(std::string_view bytes, std::string_view name);
 MeshFile parse_obj(std::string_view text, std::string_view name);
-MeshFile parse_off(std::string_view text, std::string_view name);
+MeshFile parse_off(std::string_view bytes, std::string_view name);
 MeshFile parse_ply(std::string_view bytes, std::string_view name);
 MeshFile parse_smesh(std::string_view text, std::string_view name);
 MeshFile parse_stl(std::string_view bytes, std::string_view name);

@@ -12,6 +12,7 @@ namespace gaussmesh {
 namespace {
 
 constexpr int kTriangle = 2;  // Gmsh's number for the element type
+constexpr std::string_view kVersions = "version 2.2 or 4.1 in ASCII, '2.2 0 8' or '4.1 0 8'";
 constexpr std::string_view kNode = "a node: its tag and three finite coordinates";
 constexpr std::string_view kElement = "an element: its tag, type and tags, and nodes that are there";
 constexpr std::string_view kBlock = "a block: dimension, entity, type, and how many follow";
@@ -47,7 +48,6 @@ class GmshParser {
   }
 
   void read_format() {
-    constexpr std::string_view kVersions = "version 2.2 or 4.1 in ASCII, '2.2 0 8' or '4.1 0 8'";
     lines_.require_next(kVersions);
     const auto fields = lines_.fields();
     if (fields.size() < 2 || (fields[0] != "2.2" && fields[0] != "4.1") || fields[1] != "0") lines_.fail(kVersions);
@@ -143,10 +143,21 @@ class GmshParser {
   std::unordered_map<std::uint64_t, std::uint32_t> place_of_;  // of a node's tag
 };
 
+/// Throws InputError if the second line says so. Up to there binary files are text.
+void require_ascii(std::string_view bytes, std::string_view name) {
+  MeshLines lines(bytes.substr(0, bytes.find('\0')), name);
+  while (lines.next() && lines.fields()[0] != "$MeshFormat") {
+  }
+  if (lines.next() && lines.fields().size() > 1 && lines.fields()[1] == "1") {
+    lines.fail(kVersions, "; the file is binary, save it as ASCII");
+  }
+}
+
 }  // namespace
 
-MeshFile parse_gmsh(std::string_view text, std::string_view name) {
-  return GmshParser(require_text(text, name), name).parse();
+MeshFile parse_gmsh(std::string_view bytes, std::string_view name) {
+  require_ascii(bytes, name);
+  return GmshParser(require_text(bytes, name), name).parse();
 }
 
 }  // namespace gaussmesh

@@ -17,6 +17,7 @@ constexpr std::size_t kSphereField = 7;
 /// face.
 template <class ReadLine>
 void read_lines(std::string_view text, std::string_view name, const char* what, const ReadLine& read_line) {
+  require_content(text, name);
   const bool has_header = text.starts_with('#');
   MeshLines lines(text, name);
   std::size_t announced = 0, count = 0;

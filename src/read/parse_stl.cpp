@@ -98,11 +98,12 @@ MeshFile parse_ascii(std::string_view text, std::string_view name) {
 
 }  // namespace
 
-// Headers of binary files may begin with "solid" too; their length tells.
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeader && bytes.size() == kHeader + std::size_t{announced_triangles(bytes)} * kRecord;
+}
+
 MeshFile parse_stl(std::string_view bytes, std::string_view name) {
-  const bool fits_binary =
-      bytes.size() >= kHeader && bytes.size() == kHeader + std::size_t{announced_triangles(bytes)} * kRecord;
-  const bool is_ascii = !fits_binary && bytes.starts_with("solid");
+  const bool is_ascii = !is_binary_stl(bytes) && bytes.starts_with("solid");
   return is_ascii ? parse_ascii(require_text(bytes, name), name) : parse_binary(bytes, name);
 }
 

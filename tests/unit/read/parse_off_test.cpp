@@ -57,6 +57,42 @@ TEST_CASE("OFF as it is written by different programs") {
   CHECK(parse_mesh("OFF\n0 0 0\n", "e.off").mesh.triangles.empty());
 }
 
+TEST_CASE("what else vertices have is passed over, but for normals") {
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const auto mesh = [&](const std::string& header, const std::string& behind) {
+    std::string text = header + "\n4 4 6\n";
+    for (const char* point : {"0 0 0", "1 0 0", "0 1 0", "0 0 1.5"}) text += point + behind + "\n";
+    return text + faces;
+  };
+  for (const char* header : {"OFF", "COFF", "STCOFF", "NCOFF"}) {
+    for (const char* colour : {" 255 0 0", " 0.1 0.2 0.3 1", " 0 0 1 255 0 0 255 0.5 0.5"}) {
+      check_tetrahedron(mesh(header, colour));
+      CHECK(parse_mesh(mesh(header, colour), "t.off").data.normals.empty());
+    }
+  }
+  check_tetrahedron(mesh("STOFF", " 0.5 0.25"));
+  check_tetrahedron(mesh("COFF", " 7"));
+  for (const auto& [header, behind] : {std::pair{"NOFF", " 0 3 4"},
+                                       {"CNOFF", " 0 3 4 255 0 0 255"},
+                                       {"STNOFF", " 0 3 4 1 1"},
+                                       {"STCNOFF", " 0 3 4 255 0 0 255 0.5 0.5"}}) {
+    check_tetrahedron(mesh(header, behind));
+    CHECK(parse_mesh(mesh(header, behind), "t.off").data.normals == std::vector<Normal>(4, {0.0f, 0.6f, 0.8f}));
+  }
+  CHECK(message_of(mesh("NOFF", " 0 1")) ==
+        "m.off:3: expected vertex 1 of 4: three finite coordinates and a normal, got '0 0 0 0 1'");
+  CHECK(message_of(mesh("COFF", " red")) ==
+        "m.off:3: expected vertex 1 of 4: three finite coordinates, got '0 0 0 red'");
+  CHECK(message_of(mesh("OFF", " 1")) == "m.off:3: expected vertex 1 of 4: three finite coordinates, got '0 0 0 1'");
+  for (const std::string header : {"4OFF", "nOFF", "C4OFF", "4nOFF"})
+    CHECK(message_of(mesh(header, " 1")) ==
+          "m.off:1: expected 'OFF' with three coordinates at each vertex, got '" + header + "'");
+  CHECK(message_of(mesh("XOFF", "")) ==
+        "m.off:1: expected the header 'OFF', perhaps with ST, C or N in front of it, got 'XOFF'");
+  CHECK(message_of(std::string("OFF BINARY\n\0\0\0\4", 15)) ==
+        "m.off:1: expected OFF in ASCII, got 'OFF BINARY'; the file is binary, save it as ASCII");
+}
+
 TEST_CASE("numbers keep all their digits") {
   const TriangleMesh mesh = parse_mesh("OFF 1 0 0\n-0.1 1e-300 12345678.123456789\n", "n.off").mesh;
   CHECK(mesh.vertices.at(0) == Point{-0.1, 1e-300, 12345678.123456789});
@@ -67,7 +103,9 @@ TEST_CASE("a vertex number that is too large is for the check to count") {
 }
 
 TEST_CASE("what is wrong is named with its line") {
-  CHECK(message_of("") == "m.off:1: expected the header 'OFF', got 'end of file'");
+  CHECK(message_of("") == "m.off: expected a mesh, got nothing: the file is empty");
+  CHECK(message_of("\n \t\r\n") == "m.off: expected a mesh, got nothing: the file is empty");
+  CHECK(message_of("# OFF\n") == "m.off:1: expected the header 'OFF', got 'end of file'");
   CHECK(message_of("\n\nPLY\n") == "m.off:3: expected the header 'OFF', got 'PLY'");
   CHECK(message_of("OFFSET 1 1 1\n") == "m.off:1: expected the header 'OFF', got 'OFFSET 1 1 1'");
   const std::string counts = "expected the numbers of vertices, faces and edges, got '";
@@ -113,6 +151,6 @@ TEST_CASE("files") {
   CHECK_THROWS_WITH(read_mesh(folder / "none.off"), ContainsSubstring("none.off: expected"));
   CHECK_THROWS_AS(read_mesh(folder / "none.off"), InputError);
   std::ofstream(path) << "";
-  CHECK_THROWS_WITH(read_mesh(path), ContainsSubstring("t.off:1: expected the header"));
+  CHECK_THROWS_WITH(read_mesh(path), ContainsSubstring("t.off: expected a mesh, got nothing: the file is empty"));
   std::filesystem::remove_all(folder);
 }

@@ -244,6 +244,66 @@ TEST_CASE("a stream is read as a file of its name") {
   CHECK(message("<?xml version=\"1.0\"?>\n<VTKFile>\n", "a.vtp").find("VTP is only written") != std::string::npos);
 }
 
+TEST_CASE("what has no extension that tells is known by what is in it") {
+  const MeshFile file = sample();
+  const Folder folder;
+  for (const auto& [format, name] : std::initializer_list<std::pair<const char*, const char*>>{{"off", "m"},
+                                                                                               {"ply", "m"},
+                                                                                               {"ply-ascii", "m"},
+                                                                                               {"obj", "m.txt"},
+                                                                                               {"stl", "m"},
+                                                                                               {"gmsh22", "m"},
+                                                                                               {"gmsh41", "m"},
+                                                                                               {"smesh", "m.mesh"}}) {
+    CAPTURE(format);
+    write_mesh(file.mesh, file.data, folder / name, {.format = format});
+    CHECK(read_mesh(folder / name).mesh.triangles.size() == file.mesh.triangles.size());
+    std::istringstream stream(testing::read_file(folder / name));
+    CHECK(read_mesh(stream, "standard input").mesh.triangles.size() == file.mesh.triangles.size());
+  }
+  const auto triangles = [](const std::string& text) {
+    return parse_mesh(text, "standard input").mesh.triangles.size();
+  };
+  CHECK(triangles("# by hand\n\nNOFF 3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n") == 1);
+  CHECK(triangles("# by hand\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == 1);
+  CHECK(triangles("solid a\n facet normal 0 0 1\n  outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                  "endfacet\nendsolid\n") == 1);
+  CHECK(triangles("# nodes\n3 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 0\n3 1 2 3\n0\n0\n") == 1);
+  const std::string remedy = "'; MSMS is known by the extensions .vert and .face alone";
+  const std::string expected = "expected a mesh in OFF, PLY, OBJ, STL, Gmsh .msh or TetGen .smesh, got '";
+  CHECK(message("\n0 0 0 0 0 1 0 1 3\n", "standard input") ==
+        "standard input:2: " + expected + "0 0 0 0 0 1 0 1 3" + remedy);
+  CHECK(message("solid ground\n", "m") == "m:1: " + expected + "solid ground" + remedy);
+  CHECK(message("1 3 2 1 1\n", "m") == "m:1: " + expected + "1 3 2 1 1" + remedy);
+  CHECK(message("# nothing\n", "m") == "m:1: " + expected + "end of file" + remedy);
+  for (const char* name : {"standard input", "a.obj", "a.stl", "a.smesh", "a.msh"})
+    CHECK(message(" \n", name) == std::string(name) + ": expected a mesh, got nothing: the file is empty");
+}
+
+TEST_CASE("binary Gmsh files are told to be so") {
+  const std::string told =
+      "expected version 2.2 or 4.1 in ASCII, '2.2 0 8' or '4.1 0 8', got '4.1 1 8'; the file is "
+      "binary, save it as ASCII";
+  CHECK(message("$MeshFormat\n4.1 1 8\n\1\0\0\0\n$EndMeshFormat\n"s, "a.msh") == "a.msh:2: " + told);
+  CHECK(message("$Comments\nmine\n$EndComments\n$MeshFormat\n4.1 1 8\n\1\0"s, "a") == "a:5: " + told);
+}
+
+TEST_CASE("one file of MSMS needs the other") {
+  const Folder folder;
+  write_mesh(kTetrahedron, {}, folder / "t.vert");
+  std::filesystem::remove(folder / "t.vert");
+  const std::string face = (folder / "t.face").string(), vert = (folder / "t.vert").string();
+  CHECK_THROWS_WITH(read_mesh(face), Catch::Matchers::Equals(face + ": expected MSMS, with vertices in '" + vert +
+                                                             "', got no such file; of TetGen, .smesh files are read"));
+  write_mesh(kTetrahedron, {}, folder / "t.vert");
+  std::filesystem::remove(face);
+  CHECK_THROWS_WITH(read_mesh(vert),
+                    Catch::Matchers::Equals(vert + ": expected MSMS, with faces in '" + face + "', got no such file"));
+  write_text("", face);
+  CHECK_THROWS_WITH(read_mesh(vert),
+                    Catch::Matchers::ContainsSubstring("t.face: expected a mesh, got nothing: the file is empty"));
+}
+
 TEST_CASE("MSMS that is none") {
   const auto told = [](std::string_view vertices, std::string_view faces) {
     try {
