@@ -95,8 +95,8 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
     if (is_section) throw OptionError(place(line) + "expected options without sections, got '" + line.text + "'");
     const CLI::Option* const option = item.parents.empty() ? find_option(program_, item.name) : nullptr;
     if (option == nullptr) {
-      throw OptionError(place(line) + "expected an option of gaussmesh, got '" + item.fullname() + "'; did you mean '" +
-                        nearest_name(item.name, keys(program_)) + "'?");
+      throw OptionError(place(line) + "expected an option of gaussmesh, got '" + item.fullname() + "'" +
+                        did_you_mean(item.name, keys(program_)));
     }
     const auto is_this = [&](const Given& given) { return given.option == option; };
     if (std::any_of(given_.begin(), given_.end(), is_this)) {

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -15,13 +14,13 @@
 #include "config_file.h"
 #include "convert_command.h"
 #include "gaussmesh/error.h"
-#include "gaussmesh/nearest_name.h"
 #include "gaussmesh/version.h"
 #include "help_format.h"
 #include "manual.h"
 #include "measure_command.h"
 #include "memory_limit.h"
 #include "mesh_command.h"
+#include "parse_errors.h"
 #include "validators.h"
 
 #ifdef __GLIBC__
@@ -104,39 +103,6 @@ void keep_large_arrays_apart() {
 #endif
 }
 
-/// What a word that fits nowhere may stand for: an option where it begins with a dash, else a sub-command.
-std::string nearest_to(const CLI::App& program, const std::string& word) {
-  std::vector<std::string> names;
-  if (word[0] != '-') {
-    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-      names.push_back(command->get_name());
-    return gaussmesh::nearest_name(word, names);
-  }
-  const CLI::App* app = program.get_subcommands().empty() ? &program : program.get_subcommands().front();
-  for (const CLI::Option* option : app->get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
-  return gaussmesh::nearest_name(word.substr(0, word.find('=')), names);
-}
-
-/// Says what is wrong with the command line, and what may have been meant.
-int fail_to_parse(const CLI::App& program, const CLI::ParseError& error, const std::string& first_word) {
-  const auto config = std::dynamic_pointer_cast<const ConfigFile>(program.get_config_formatter());
-  std::cerr << "gaussmesh: " << (config ? config->place_of(error.what()) : "") << error.what();
-  const std::vector<std::string> extras = program.remaining(true);
-  const auto option = std::find_if(extras.begin(), extras.end(),
-                                   [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-  if (option != extras.end()) {
-    std::cerr << "; did you mean '" << nearest_to(program, *option) << "'?";
-  } else if (!extras.empty() && !first_word.empty() && program.get_subcommands().empty()) {
-    std::cerr << "; one molecule is meshed at a time. Did you mean '" << nearest_to(program, first_word) << "' by '"
-              << first_word << "'?";
-  }
-  std::cerr << "\nRun with --help for more information.\n";
-  return dynamic_cast<const CLI::FileError*>(&error) != nullptr ? kInput : kWrongUse;
-}
-
 /// Prints the page or script; the names are those of --print-manual.
 int print_manual(const CLI::App& program, const std::string& kind) {
   std::cout << (kind == "man"    ? manual_page(program)
@@ -178,7 +144,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // help and version
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    return fail_to_parse(program, error, argc > 1 ? argv[1] : "");
+    std::cerr << "gaussmesh: " << message_of(program, error) << "\nRun with --help for more information.\n";
+    return dynamic_cast<const CLI::FileError*>(&error) != nullptr ? kInput : kWrongUse;
   }
   if (!manual.empty()) return print_manual(program, manual);
   if (check_command->parsed()) return run_check(check);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <sstream>
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/select_components.h"
@@ -19,12 +20,28 @@ bool is_standard_output_taken(const MeshCommand& command) {
          std::any_of(command.outputs.begin(), command.outputs.end(), is_standard_output);
 }
 
+/// Larger triangles are not made equilateral. Said in terms of what was given: spacing or density.
+void require_spacing_for_improvement(const MeshCommand& command) {
+  constexpr double kLargest = 200.0;      // A
+  constexpr double kLeastDensity = 3e-5;  // 1/A^2
+  if (!command.options.improve) return;
+  const auto fail = [](const std::string& option, const std::string& expected, double got) {
+    std::ostringstream number;
+    number << got;
+    throw OptionError(option + ": expected " + expected + " without --raw, got '" + number.str() + "'");
+  };
+  if (command.density && *command.density < kLeastDensity) {
+    fail("--density", "a number from 3e-05 to 10000", *command.density);
+  }
+  if (!command.density && command.options.spacing > kLargest) {
+    fail("--spacing", "a number from 0.01 to 200", command.options.spacing);
+  }
+}
+
 void require_sense(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a file of atoms, got nothing; see --help");
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
-  if (!(command.min_cavity_volume >= 0.0))
-    throw OptionError("min-cavity-volume: expected a number >= 0 (A^3), got '" +
-                      std::to_string(command.min_cavity_volume) + "'");
+  require_spacing_for_improvement(command);
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
@@ -154,6 +171,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       .add_option("--min-cavity-volume", command.min_cavity_volume,
                   "fill cavities of less than this (A^3, >= 0; one water is 11.4; default: 0)")
       ->type_name("V")
+      ->check(number_from(0.0))
       ->group(surface);
   program
       .add_flag("--allow-uncertified", command.options.allow_uncertified,
@@ -169,8 +187,8 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
           ->check(number_between(0.01, 1000.0))
           ->group(triangles);
   program
-      .add_option_function<double>(
-          "--density", [&command](double density) { command.options.spacing = spacing_for_density(density); },
+      .add_option(
+          "--density", command.density,
           "the same by vertices per area (1/A^2, 3e-5 to 1e4, with --raw from 2e-6; default: none, --spacing 0.5 is "
           "4.6)")
       ->type_name("V")
@@ -234,6 +252,7 @@ int run_mesh(const MeshCommand& command) {
   MeshOptions options = command.options;
   options.decay = surface.decay;
   options.isovalue = surface.isovalue;
+  if (command.density) options.spacing = spacing_for_density(*command.density);
   options.measure_distance = !command.report.empty();
   MeshResult result = [&] {
     ProgressBar bar(!command.quiet, options.improve);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct MeshCommand {
   MoleculeOptions reading;
   std::string cavities = "keep";     ///< or drop, separate
   double min_cavity_volume = 0.0;    ///< A^3; smaller cavities are left out
+  std::optional<double> density;     ///< vertices per A^2, instead of options.spacing
   std::vector<std::string> outputs;  ///< "-": standard output
   std::string report;                ///< empty: none
   bool no_header = false;

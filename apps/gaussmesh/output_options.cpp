@@ -4,14 +4,18 @@
 #include <set>
 
 #include "gaussmesh/error.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 
 std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
-  std::string names;
-  for (const MeshFormat& format : mesh_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
-  return {command.add_option("--format", writing.format, "format of all meshes: " + names + " (default: by extension)")
-              ->type_name("NAME"),
+  std::vector<std::string> names;
+  for (const MeshFormat& format : mesh_formats()) names.emplace_back(format.name);
+  return {command
+              .add_option("--format", writing.format,
+                          "format of all meshes: " + join_names(names, ", ") + " (default: by extension)")
+              ->type_name("NAME")
+              ->check(one_of(names)),
           command.add_flag("--no-header", no_header,
                            "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
 }

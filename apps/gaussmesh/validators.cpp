@@ -54,8 +54,7 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
   return CLI::Validator(
       [names](const std::string& name) {
         if (std::find(names.begin(), names.end(), name) != names.end()) return std::string();
-        return "expected " + join_names(names, ", ") + ", got '" + name + "'; did you mean '" +
-               nearest_name(name, names) + "'?";
+        return "expected " + join_names(names, ", ") + ", got '" + name + "'" + did_you_mean(name, names);
       },
       "");
 }
@@ -75,6 +74,16 @@ CLI::Validator positive_number() {
       [](const std::string& text) {
         const std::optional<double> value = finite_number(text);
         return value && *value > 0.0 ? std::string() : "expected a number > 0, got '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator number_from(double low) {
+  return CLI::Validator(
+      [low](const std::string& text) {
+        const std::optional<double> value = finite_number(text);
+        return value && *value >= low ? std::string()
+                                      : "expected a number >= " + number_text(low) + ", got '" + text + "'";
       },
       "");
 }

@@ -11,7 +11,7 @@ namespace gaussmesh::app {
 /// Joined with `separator`.
 std::string join_names(const std::vector<std::string>& names, const std::string& separator);
 
-/// Refuses every other name, and says which one is nearest. @param names  at least one
+/// Refuses every other name, and says which one is near. @param names  at least one
 CLI::Validator one_of(const std::vector<std::string>& names);
 
 /// Takes numbers from `low` to `high`, both included.
@@ -19,6 +19,9 @@ CLI::Validator number_between(double low, double high);
 
 /// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
 CLI::Validator positive_number();
+
+/// Takes numbers from `low` on.
+CLI::Validator number_from(double low);
 
 /// Takes sizes of memory from `least` (bytes) on: whole numbers of bytes, or numbers of K, M, G or T of 1024, 1024^2,
 /// ... bytes, with or without a B or iB behind. Makes bytes of them.

@@ -1,7 +1,6 @@
 #include "write/mesh_formats.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
@@ -32,8 +31,10 @@ constexpr std::array<FormatEntry, 10> kFormats = {{
     {"vtp", {".vtp"}, "VTK, with normals, nearest atoms, components (ParaView)", kAll, {{{"", write_vtp}}}},
 }};
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+/// For messages.
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
 }
 
@@ -43,8 +44,7 @@ const FormatEntry& find_by_name(const std::string& name) {
     if (entry.name == name) return entry;
     names.push_back(entry.name);
   }
-  throw OptionError("format: expected one of the known formats, got '" + name + "'; did you mean '" +
-                    nearest_name(name, names) + "'?");
+  throw OptionError("format: expected " + listed(names) + ", got '" + name + "'" + did_you_mean(name, names));
 }
 
 const FormatEntry& find_by_extension(const std::filesystem::path& path) {
@@ -57,8 +57,8 @@ const FormatEntry& find_by_extension(const std::filesystem::path& path) {
       extensions.push_back(known);
     }
   }
-  throw OptionError(path.string() + ": expected a name with the extension of a known format, got '" + extension +
-                    "'; did you mean '" + nearest_name(extension, extensions) + "'? Or name the format");
+  throw OptionError(path.string() + ": expected a format by name, or the extension " + listed(extensions) + ", got '" +
+                    extension + "'" + did_you_mean(extension, extensions));
 }
 
 }  // namespace

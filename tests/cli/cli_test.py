@@ -193,6 +193,21 @@ class WrongUse(CliTest):
         result = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, "--d=-1")
         self.assertLess(max(map(len, result.stderr.splitlines())), 200)
 
+    def test_options_that_are_wrong_together_are_named(self):
+        for options, said in [(["--spacing", 300], "--spacing: expected a number from 0.01 to 200 without --raw, got '300'"),
+                              (["--density", 1e-5], "--density: expected a number from 3e-05 to 10000 without --raw, got '1e-05'"),
+                              (["--min-cavity-volume", -1], "--min-cavity-volume: expected a number >= 0, got '-1'"),
+                              (["--d", 0.5, "--d", 0.6], "--d: expected once, got 2 values: '0.5', '0.6'"),
+                              (["--spacings", 0.5], "expected an option of gaussmesh, got '--spacings'; did you mean '--spacing'?"),
+                              (["--format", "mmcif"], "--format: expected off, msms, ply, ply-ascii, obj, stl, gmsh22, gmsh41, "
+                                                      "smesh, vtp, got 'mmcif'\n")]:
+            error = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, *options).stderr
+            self.assertEqual(error[:len(said) + 11], "gaussmesh: " + said)
+        for option in [["--spacing", 300], ["--density", 1e-5]]:
+            self.expect(0, self.molecule("methanol"), "--raw", *option, "-o", self.mesh)
+        error = self.expect(WRONG_USE, "check", self.mesh, self.molecule("methanol"), "third").stderr
+        self.assertIn("gaussmesh check: expected no further file, got 'third'", error)
+
     def test_check_of_nothing(self):
         self.refused("check")
 
@@ -455,6 +470,9 @@ class Running(CliTest):
         self.assertIn("'drop'", self.expect(WRONG_USE, self.molecule("methanol"), "--cavities", "dorp").stderr)
         self.assertIn("'check'", self.expect(WRONG_USE, "chek", self.mesh).stderr)
         self.assertIn("'--json'", self.expect(WRONG_USE, "check", self.mesh, "--jason").stderr)
+        self.assertIn("did you mean 'sas'", self.expect(WRONG_USE, self.molecule("methanol"), "--preset", "SAS").stderr)
+        for words in [["--radii", "parse"], ["--preset", "spheres"], ["second.pqr"], ["--nothing-like-it"]]:
+            self.assertNotIn("did you mean", self.expect(WRONG_USE, self.molecule("methanol"), *words).stderr)
         self.assertIn("'--tolerance'", self.expect(WRONG_USE, "check", self.mesh, "--tol", 1).stderr)
 
     def test_the_report_cannot_be_written(self):

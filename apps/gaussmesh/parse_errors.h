@@ -1,0 +1,13 @@
+// What is wrong with the command line or the configuration file, told in the program's own words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace gaussmesh::app {
+
+/// The message for an error that `program` threw while it was parsing: where, what was expected and what was got, and
+/// which name is near to one that there is not. CLI11 lists what fits nowhere backwards, and knows no near names.
+std::string message_of(const CLI::App& program, const CLI::ParseError& error);
+
+}  // namespace gaussmesh::app
