@@ -11,7 +11,8 @@ namespace {
 
 /// One kind of defect: how the report and JSON name it.
 struct Defect {
-  const char* text;
+  const char* text;  // of many
+  const char* one;
   const char* key;
   std::size_t count;
 };
@@ -28,22 +29,33 @@ std::size_t count_inverted(const MeshCheck& mesh, bool cavities) {
 std::vector<Defect> defects_of(const CheckFindings& found) {
   const MeshCheck& mesh = found.mesh;
   std::vector<Defect> defects{
-      {"triangles that name a missing vertex", "bad_indices", mesh.bad_indices},
-      {"vertices without usable coordinates", "bad_coordinates", mesh.bad_coordinates},
-      {"boundary edges, in one triangle only", "boundary_edges", mesh.boundary_edges},
-      {"non-manifold edges, in more than two", "nonmanifold_edges", mesh.nonmanifold_edges},
-      {"edges whose triangles turn against each other", "misoriented_edges", mesh.misoriented_edges},
-      {"vertices whose triangles are not one closed fan", "nonmanifold_vertices", mesh.nonmanifold_vertices},
-      {"vertices in no triangle", "isolated_vertices", mesh.isolated_vertices},
-      {"vertices at the place of another", "duplicate_vertices", mesh.duplicate_vertices},
-      {"triangles of zero area", "degenerate_triangles", mesh.degenerate_triangles},
-      {"pairs of triangles that cross or touch", "intersecting_pairs", mesh.intersecting_pairs},
-      {"outer surfaces whose faces turn inwards", "inward_surfaces", count_inverted(mesh, false)},
-      {"cavities whose faces turn outwards", "outward_cavities", count_inverted(mesh, true)}};
+      {"triangles that name a missing vertex", "triangle that names a missing vertex", "bad_indices", mesh.bad_indices},
+      {"vertices without usable coordinates", "vertex without usable coordinates", "bad_coordinates",
+       mesh.bad_coordinates},
+      {"boundary edges, in one triangle only", "boundary edge, in one triangle only", "boundary_edges",
+       mesh.boundary_edges},
+      {"non-manifold edges, in more than two", "non-manifold edge, in more than two", "nonmanifold_edges",
+       mesh.nonmanifold_edges},
+      {"edges whose triangles turn against each other", "edge whose triangles turn against each other",
+       "misoriented_edges", mesh.misoriented_edges},
+      {"vertices whose triangles are not one closed fan", "vertex whose triangles are not one closed fan",
+       "nonmanifold_vertices", mesh.nonmanifold_vertices},
+      {"vertices in no triangle", "vertex in no triangle", "isolated_vertices", mesh.isolated_vertices},
+      {"vertices at the place of another", "vertex at the place of another", "duplicate_vertices",
+       mesh.duplicate_vertices},
+      {"triangles of zero area", "triangle of zero area", "degenerate_triangles", mesh.degenerate_triangles},
+      {"pairs of triangles that cross or touch", "pair of triangles that cross or touch", "intersecting_pairs",
+       mesh.intersecting_pairs},
+      {"outer surfaces whose faces turn inwards", "outer surface whose faces turn inwards", "inward_surfaces",
+       count_inverted(mesh, false)},
+      {"cavities whose faces turn outwards", "cavity whose faces turn outwards", "outward_cavities",
+       count_inverted(mesh, true)}};
   if (found.charges_outside)
-    defects.push_back({"charges outside the mesh", "charges_outside", found.charges_outside->size()});
+    defects.push_back(
+        {"charges outside the mesh", "charge outside the mesh", "charges_outside", found.charges_outside->size()});
   if (found.near && found.separation_is_required)
-    defects.push_back({"pairs of vertices too near to each other", "near_pairs", found.near->pairs});
+    defects.push_back({"pairs of vertices too near to each other", "pair of vertices too near to each other",
+                       "near_pairs", found.near->pairs});
   return defects;
 }
 
@@ -79,18 +91,17 @@ std::string near_text(const CheckFindings& found) {
   constexpr std::size_t kMostExamples = 3;
   if (!found.near) return "";
   const NearVertices& near = *found.near;
-  std::string text = line(
-      "Vertices nearer to each other than %.4g A: %zu pairs%s, %zu of them joined by an edge, %zu crowded\n",
-      found.separation, near.pairs, near.pairs == kMostNearPairs ? " or more" : "", near.short_edges, near.crowded);
+  std::string text = line("Vertices nearer to each other than %.4g A: ", found.separation) +
+                     counted(near.pairs, "pair", "pairs") +
+                     line("%s, %zu of them joined by an edge, %zu crowded\n",
+                          near.pairs == kMostNearPairs ? " or more" : "", near.short_edges, near.crowded);
   std::string pairs;
   for (std::size_t i = 0; i < std::min(kMostExamples, near.examples.size()); ++i)
     pairs += line("%s%u and %u", i == 0 ? "" : ", ", near.examples[i][0], near.examples[i][1]);
   if (!pairs.empty()) text += "  counted from 0: " + pairs + "\n";
   if (near.crowded != 0 && !found.separation_is_required)
-    text += line(
-        "  WARNING: %zu pairs are nearer than a quarter of the edges there; boundary-element solvers may not "
-        "converge\n",
-        near.crowded);
+    text += "  WARNING: " + counted(near.crowded, "pair is", "pairs are") +
+            " nearer than a quarter of the edges there; boundary-element solvers may not converge\n";
   return text;
 }
 
@@ -115,7 +126,7 @@ std::string verdict_text(const CheckFindings& found) {
   if (found.is_good()) return "OK: fit for a solver" + std::string(found.tolerance ? ", and on the surface\n" : "\n");
   std::string reasons = found.mesh.triangles == 0 ? "; no triangle" : "";
   for (const Defect& defect : defects_of(found))
-    if (defect.count != 0) reasons += line("; %zu %s", defect.count, defect.text);
+    if (defect.count != 0) reasons += "; " + counted(defect.count, defect.one, defect.text);
   if (!found.is_on_surface()) reasons += "; vertices are not on the surface";
   return "FAILED: " + reasons.substr(2) + "\n";
 }
@@ -159,9 +170,8 @@ Json distance_json(const CheckFindings& found) {
 }  // namespace
 
 std::string findings_text(const CheckFindings& found) {
-  return found.name + line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
-         defects_text(found) + components_text(found.mesh) + shape_text(found.mesh) + near_text(found) +
-         distance_text(found) + verdict_text(found);
+  return found.name + ": " + size_text(found.mesh) + "\n" + defects_text(found) + components_text(found.mesh) +
+         shape_text(found.mesh) + near_text(found) + distance_text(found) + verdict_text(found);
 }
 
 std::string findings_json(const CheckFindings& found) {

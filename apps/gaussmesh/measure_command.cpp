@@ -19,8 +19,7 @@ struct Measured {
 };
 
 std::string measured_text(const Measured& found) {
-  std::string text = found.name + line(": %zu vertices, %zu triangles\n", found.mesh.vertices, found.mesh.triangles) +
-                     components_text(found.mesh);
+  std::string text = found.name + ": " + size_text(found.mesh) + "\n" + components_text(found.mesh);
   if (!all_are_closed(found.mesh)) text += "  WARNING: the volume of what is not closed says nothing\n";
   if (!found.by_atoms) return text;
   const AtomMeasures& atoms = *found.by_atoms;
@@ -87,9 +86,12 @@ int run_measure(const MeasureCommand& command) {
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)
-    throw InputError(command.mesh + ": expected a mesh to measure, got " + std::to_string(found.mesh.bad_indices) +
-                     " triangles that name a missing vertex and " + std::to_string(found.mesh.bad_coordinates) +
-                     " vertices without usable coordinates");
+    throw InputError(command.mesh + ": expected a mesh to measure, got " +
+                     counted(found.mesh.bad_indices, "triangle that names a missing vertex",
+                             "triangles that name a missing vertex") +
+                     " and " +
+                     counted(found.mesh.bad_coordinates, "vertex without usable coordinates",
+                             "vertices without usable coordinates"));
   if (command.molecule)
     found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false));
   if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);

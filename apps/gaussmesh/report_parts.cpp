@@ -26,6 +26,14 @@ std::string line(const char* format, ...) {
   return buffer;
 }
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string size_text(const MeshCheck& mesh) {
+  return counted(mesh.vertices, "vertex", "vertices") + ", " + counted(mesh.triangles, "triangle", "triangles");
+}
+
 bool all_are_closed(const MeshCheck& mesh) {
   return std::all_of(mesh.components.begin(), mesh.components.end(), [](const MeshComponent& c) { return c.closed; });
 }

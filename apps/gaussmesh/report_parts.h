@@ -17,6 +17,12 @@ using Json = nlohmann::ordered_json;
 /// printf into a string; a line is never longer than the buffer, 256 characters.
 [[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...);
 
+/// `1 pair`, `2 pairs`.
+std::string counted(std::size_t count, const char* one, const char* many);
+
+/// `4 vertices, 4 triangles`.
+std::string size_text(const MeshCheck& mesh);
+
 /// Whether every component has an inside.
 bool all_are_closed(const MeshCheck& mesh);
 

@@ -662,6 +662,14 @@ class Check(CliTest):
         turned = [" ".join([f, a, c, b]) for f, a, b, c in map(str.split, self.FACES)]
         self.expect(CHECK_FAILED, "check", self.off(turned))
 
+    def test_one_is_no_plural(self):
+        said = self.expect(CHECK_FAILED, "check", self.off(["3 0 1 7"], self.VERTICES[:3])).stdout
+        self.assertIn("3 vertices, 1 triangle\n", said)
+        self.assertIn("FAILED: 1 triangle that names a missing vertex; 3 vertices in no triangle", said)
+        said = self.expect(CHECK_FAILED, "check", self.off(self.FACES, [*self.VERTICES, "9 9 9"]), "--min-separation", 1.3)
+        self.assertIn("FAILED: 1 vertex in no triangle; 3 pairs of vertices too near to each other", said.stdout)
+        self.assertIn("3 pairs, 3 of them joined", said.stdout)
+
     def test_crossing_tetrahedra(self):
         moved = ["0.1 0.1 0.1", "1.1 0.1 0.1", "0.1 1.1 0.1", "0.1 0.1 1.1"]
         shifted = [" ".join(["3", *(str(int(v) + 4) for v in face.split()[1:])]) for face in self.FACES]
@@ -716,7 +724,7 @@ class CheckForSolvers(CliTest):
         stray = "HETATM   99  CL  ION     9      90.000   0.000   0.000 -1.000  0.00\n"
         molecule = self.write("stray.pqr", stray + atoms)
         said = self.expect(CHECK_FAILED, "check", self.mesh, molecule, "--d", 0.6, "--c", 1.7).stdout
-        self.assertIn("1 charges outside the mesh", said.splitlines()[-1])
+        self.assertIn("1 charge outside the mesh", said.splitlines()[-1])
         self.assertEqual(self.findings(molecule, "--d", 0.6, "--c", 1.7, code=CHECK_FAILED)["charges_outside"], [0])
 
     def test_vertices_that_are_too_near(self):
@@ -752,12 +760,12 @@ class CheckForSolvers(CliTest):
         out, inwards = (0, 1, 2), (0, 2, 1)
         self.expect(0, "check", mesh(sphere(5, out), sphere(1, inwards)))
         cavity = self.expect(CHECK_FAILED, "check", mesh(sphere(5, out), sphere(1, out))).stdout
-        self.assertIn("1 cavities whose faces turn outwards", cavity.splitlines()[-1])
+        self.assertIn("1 cavity whose faces turn outwards", cavity.splitlines()[-1])
         corners, faces = sphere(5, out)
         opened = self.expect(CHECK_FAILED, "check", mesh((corners, faces[1:]), sphere(1, inwards))).stdout
         self.assertNotIn("inwards", opened.splitlines()[-1], "the cavity is turned as it should be")
         outside = self.expect(CHECK_FAILED, "check", mesh(sphere(5, inwards), sphere(1, inwards))).stdout
-        self.assertIn("1 outer surfaces whose faces turn inwards", outside.splitlines()[-1])
+        self.assertIn("1 outer surface whose faces turn inwards", outside.splitlines()[-1])
 
 
 class Measure(CliTest):
@@ -788,7 +796,9 @@ class Measure(CliTest):
         self.assertNotIn("van der Waals", self.expect(0, "measure", self.mesh).stdout)
 
     def test_no_mesh_to_measure(self):
-        self.expect(BAD_INPUT, "measure", self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"))
+        bad = self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+        self.assertIn("got 1 triangle that names a missing vertex and 0 vertices without usable coordinates",
+                      self.expect(BAD_INPUT, "measure", bad).stderr)
 
 
 class Compare(CliTest):
