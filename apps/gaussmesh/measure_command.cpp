@@ -93,7 +93,7 @@ int run_measure(const MeasureCommand& command) {
                      counted(found.mesh.bad_coordinates, "vertex without usable coordinates",
                              "vertices without usable coordinates"));
   if (command.molecule)
-    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false));
+    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false).atoms);
   if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);
   put_report(measured_text(found), measured_json(found), command.json);
   return 0;

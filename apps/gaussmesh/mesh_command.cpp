@@ -102,6 +102,14 @@ Product select_cavities(const MeshCommand& command, Product product) {
   return product;
 }
 
+/// Writes down what the library does not know.
+void tell_of_input(const MeshCommand& command, const Surface& surface, const AtomFile& input, MeshReport& report) {
+  report.source = {command.molecule, surface.reading.reading.radii, input.warnings};
+  report.probe_radius = surface.reading.probe.value_or(0.0);
+  report.cavities = command.cavities;
+  report.min_cavity_volume = command.min_cavity_volume;
+}
+
 /// What the formats of the outputs hold.
 VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result) {
   const WriteOptions writing = writing_options(command.writing, command.no_header);
@@ -248,7 +256,7 @@ int run_mesh(const MeshCommand& command) {
   require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
-  const std::vector<Atom> atoms = read_molecule(command.molecule, surface.reading, command.quiet);
+  const AtomFile input = read_molecule(command.molecule, surface.reading, command.quiet);
   MeshOptions options = command.options;
   options.decay = surface.decay;
   options.isovalue = surface.isovalue;
@@ -258,10 +266,10 @@ int run_mesh(const MeshCommand& command) {
     ProgressBar bar(!command.quiet, options.improve);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
     options.on_improving = [&](double share_done) { bar.improving(share_done); };
-    return mesh_surface(atoms, options);
+    return mesh_surface(input.atoms, options);
   }();
-  result.report.probe_radius = surface.reading.probe.value_or(0.0);
-  VertexData data = find_vertex_data(command, atoms, result);
+  tell_of_input(command, surface, input, result.report);
+  VertexData data = find_vertex_data(command, input.atoms, result);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
   require_writable_files(command, product.report.check.components.size());

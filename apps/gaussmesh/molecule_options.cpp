@@ -25,12 +25,13 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
               ->check(number_between(0.0, 1000.0))};
 }
 
-std::vector<Atom> read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet) {
+AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet) {
   AtomFile input =
       path == "-" ? read_atoms(std::cin, "standard input", options.reading) : read_atoms(path, options.reading);
   if (!quiet)
     for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
-  return add_probe(std::move(input.atoms), options.probe.value_or(0.0));
+  input.atoms = add_probe(std::move(input.atoms), options.probe.value_or(0.0));
+  return input;
 }
 
 }  // namespace gaussmesh::app

@@ -23,6 +23,6 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
 
 /// Reads the molecule, prints its warnings unless `quiet`, and adds the probe.
 /// @throws InputError, OptionError
-std::vector<Atom> read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet);
+AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet);
 
 }  // namespace gaussmesh::app

@@ -60,6 +60,13 @@ struct CavitiesLeftOut {
   double volume = 0.0;         ///< A^3, that the mesh encloses more than the surface does
 };
 
+/// Where the atoms come from, for the report. Empty names: not known.
+struct AtomSource {
+  std::string file;                   ///< as it was named; "-": standard input
+  std::string radii;                  ///< the set that was asked for, for files that have none of their own
+  std::vector<std::string> warnings;  ///< of the reader
+};
+
 /// How the mesh came about, and what was proven of it.
 struct MeshReport {
   std::size_t atoms = 0;
@@ -76,8 +83,11 @@ struct MeshReport {
   double vertex_distance_max = 0.0;        ///< A, largest distance of a vertex from phi = c
   MeshCheck check;                         ///< what the judge found of the triangles
   std::vector<StageCost> stages;
-  double probe_radius = 0.0;  ///< A, what the caller had added to all radii beforehand
-  CavitiesLeftOut left_out;   ///< what the caller did to the mesh afterwards; `check` is then of what remains
+  double probe_radius = 0.0;       ///< A, what the caller had added to all radii beforehand
+  AtomSource source;               ///< what the caller says of the atoms
+  std::string cavities = "keep";   ///< what the caller did with them: or drop, separate
+  double min_cavity_volume = 0.0;  ///< A^3; the caller filled smaller ones
+  CavitiesLeftOut left_out;        ///< what the caller did to the mesh afterwards; `check` is then of what remains
 };
 
 struct MeshResult {

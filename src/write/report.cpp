@@ -19,7 +19,14 @@ Json options_json(const MeshReport& report) {
           {"improve", o.improve},
           {"tolerance_A", o.tolerance},
           {"threads", o.threads},
-          {"allow_uncertified", o.allow_uncertified}};
+          {"allow_uncertified", o.allow_uncertified},
+          {"cavities", report.cavities},
+          {"min_cavity_volume_A3", report.min_cavity_volume}};
+}
+
+Json input_json(const AtomSource& source) {
+  const auto name = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  return {{"file", name(source.file)}, {"radii", name(source.radii)}, {"warnings", source.warnings}};
 }
 
 Json components_json(const MeshCheck& check) {
@@ -87,6 +94,7 @@ std::string report_json(const MeshReport& report) {
   }
   const MeshCheck& check = report.check;
   Json json = {{"program", std::string("gaussmesh ") + kVersion},
+               {"input", input_json(report.source)},
                {"atoms", report.atoms},
                {"options", options_json(report)},
                {"triangles", check.triangles},
@@ -102,7 +110,7 @@ std::string report_json(const MeshReport& report) {
                {"vertex_distance_max_A", report.vertex_distance_max},
                {"stages", stages}};
   if (report.surface_distance) json["surface_distance_A"] = *report.surface_distance;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files need not be UTF-8
 }
 
 std::string report_summary(const MeshReport& report) {

@@ -156,9 +156,23 @@ class Schema(CliTest):
         self.write("touching.pqr", atom.format(1, "-1.5") + atom.format(2, "1.5"))
         for arguments in [[self.molecule("fas2"), "--raw", "--cavities", "drop", "--spacing", 2],
                           [self.molecule("dmso"), "--preset", "sas", "--tolerance", 0.05],
+                          [self.molecule("dmso"), "--cavities", "separate", "-o", "s.off"],
                           ["touching.pqr", "--c", repr(2 * 0.4723665527410147), "--allow-uncertified"]]:  # its saddle
             self.expect(0, *arguments, "-o", self.mesh, "--report", "r.json")
             validator.validate(json.loads((self.folder / "r.json").read_text()))
+
+
+    def test_the_input_and_what_was_done_with_cavities_are_told(self):
+        self.write("mol.pdb", pdb_text(self.molecule("1l2y")))
+        with open(self.folder / "mol.pdb", "a", encoding="utf-8") as file:
+            file.write("HETATM  999  O   HOH A 999       9.000   9.000   9.000  1.00 10.00           O\n")
+        self.expect(0, "mol.pdb", "--radii", "bondi", "--raw", "--spacing", 1, "--min-cavity-volume", 20, "-o", self.mesh,
+                    "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual((report["input"]["file"], report["input"]["radii"]), ("mol.pdb", "bondi"))
+        self.assertIn("mol.pdb", "".join(report["input"]["warnings"]))
+        self.assertEqual(report["options"]["cavities"], "keep")
+        self.assertEqual(report["options"]["min_cavity_volume_A3"], 20)
 
 
 if __name__ == "__main__":

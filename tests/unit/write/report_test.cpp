@@ -68,6 +68,24 @@ TEST_CASE("the report is JSON that has all that was done and proved") {
   CHECK(json.at("stages").size() == 2);
 }
 
+TEST_CASE("what the caller knows of the atoms is in the report, in UTF-8 whatever the name") {
+  MeshReport report = sample_report();
+  auto json = nlohmann::json::parse(report_json(report));
+  CHECK(json.at("input").at("file").is_null());
+  CHECK(json.at("input").at("radii").is_null());
+  CHECK(json.at("input").at("warnings").empty());
+  CHECK(json.at("options").at("cavities") == "keep");
+  report.source = {"\xff.pdb", "bondi", {"left out 3 atoms of water"}};
+  report.cavities = "drop";
+  report.min_cavity_volume = 11.4;
+  json = nlohmann::json::parse(report_json(report));
+  CHECK_THAT(json.at("input").at("file").get<std::string>(), Catch::Matchers::ContainsSubstring(".pdb"));
+  CHECK(json.at("input").at("radii") == "bondi");
+  CHECK(json.at("input").at("warnings").at(0) == "left out 3 atoms of water");
+  CHECK(json.at("options").at("cavities") == "drop");
+  CHECK(json.at("options").at("min_cavity_volume_A3") == 11.4);
+}
+
 TEST_CASE("critical places are in the report with the distance of c from their value") {
   MeshReport report = sample_report();
   report.certified = false;
