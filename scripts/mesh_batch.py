@@ -19,6 +19,7 @@ import concurrent.futures
 import csv
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,15 @@ def find_molecules(options):
     return molecules
 
 
+def reason_in(lines):
+    """The line that says why. Behind its own errors pdb2pqr raises one without a text, which stands last."""
+    for pattern in [r"gaussmesh: (?!warning)", r"\w*(Error|Exception): .", r"(CRITICAL|ERROR):."]:
+        said = [line for line in lines if re.match(pattern, line)]
+        if said:
+            return said[-1]
+    return lines[-1]
+
+
 def run(command, options):
     """Runs a program; returns why it failed, or nothing."""
     try:
@@ -70,8 +80,8 @@ def run(command, options):
     if result.returncode == 0:
         return ""
     lines = (result.stderr.strip() or result.stdout.strip() or "no message").splitlines()
-    said = [line for line in lines if line.startswith("gaussmesh: ") and "warning" not in line] or lines
-    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {said[-1].removeprefix('gaussmesh: ')}"
+    said = reason_in(lines).removeprefix("gaussmesh: ")
+    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {said}"
 
 
 def meshes_of(name, options):
@@ -158,6 +168,7 @@ def parse_arguments(arguments):
     options = parser.parse_args(own)
     if options.jobs < 1 or options.threads < 0:
         parser.error("--jobs: expected 1 or more, --threads: 0 or more")
+    options.extension = "." + options.extension.removeprefix(".")
     options.rest = rest
     return options
 

@@ -122,6 +122,18 @@ class Batch(CliTest):
         self.write("file", "")
         self.assertEqual(self.batch(self.molecule("methanol"), "--output", "file").returncode, 2)
 
+    def test_says_what_pdb2pqr_said(self):
+        """Its last line is an error without a text."""
+        self.write("none.pdb", "ATOM      1  N   XXX A   1       0.000   0.000   0.000  1.00 10.00           N\n")
+        self.batch("none.pdb", "--output", "out", "--pdb2pqr", "/usr/bin/pdb2pqr")
+        self.assertRegex((self.folder / "out" / "failures.tsv").read_text(), "pdb2pqr: exit 1: .*heavy atoms")
+
+    def test_an_extension_without_its_dot(self):
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        made = self.batch("m.pqr", "--output", "out", "--extension", "msh")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertTrue((self.folder / "out" / "m.msh").exists())
+
     def test_stops_when_told_to(self):
         for i in range(8):
             shutil.copy(self.molecule("dmso"), self.folder / f"m{i}.pqr")
