@@ -31,7 +31,7 @@ void check(const MeshFile& file) {
 // NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  for (const std::string_view name : {"fuzz.off", "fuzz.obj", "fuzz.stl", "fuzz.smesh"}) {
+  for (const std::string_view name : {"fuzz.off", "fuzz.obj", "fuzz.stl", "fuzz.smesh", "fuzz"}) {
     try {
       check(gaussmesh::parse_mesh(bytes, name));
     } catch (const gaussmesh::InputError& error) {
