@@ -14,8 +14,6 @@ struct FoundAtom {
   NumberFields numbers;
 };
 
-std::string count_of_atoms(std::size_t count) { return std::to_string(count) + (count == 1 ? " atom" : " atoms"); }
-
 /// Reads one text; made anew for each.
 class PqrParser {
  public:
@@ -185,22 +183,22 @@ void PqrParser::note_unknown(std::string_view content) {
 void PqrParser::warn_of_models() {
   if (atoms_in_other_models_ > 0) {
     file_.warnings.push_back(to_string({name_, *model_end_line_}) + ": the first model ends here; left out " +
-                             count_of_atoms(atoms_in_other_models_) + " of other models");
+                             counted(atoms_in_other_models_, "atom") + " of other models");
   }
 }
 
 void PqrParser::warn_of_end() {
   if (atoms_after_end_ > 0) {
     file_.warnings.push_back(to_string({name_, *end_line_}) + ": END is followed by " +
-                             count_of_atoms(atoms_after_end_) + " that are read too");
+                             counted(atoms_after_end_, "atom") + (atoms_after_end_ == 1 ? " that is" : " that are") +
+                             " read too");
   }
 }
 
 void PqrParser::warn_of_unknown() {
   if (unknown_lines_ > 0) {
-    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " + std::to_string(unknown_lines_) +
-                             (unknown_lines_ == 1 ? " line" : " lines") + " of no known record, the first " +
-                             quoted(first_unknown_));
+    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " + counted(unknown_lines_, "line") +
+                             " of no known record, the first " + quoted(first_unknown_));
   }
 }
 

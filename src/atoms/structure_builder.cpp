@@ -14,7 +14,7 @@ std::string element_text(const AtomSite& site) {
 }
 
 void warn_of(std::size_t count, const std::string& what, const std::string& name, AtomFile& file) {
-  if (count > 0) file.warnings.push_back(name + ": left out " + std::to_string(count) + " atoms " + what);
+  if (count > 0) file.warnings.push_back(name + ": left out " + counted(count, "atom") + " " + what);
 }
 
 }  // namespace

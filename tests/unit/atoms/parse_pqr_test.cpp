@@ -213,6 +213,14 @@ TEST_CASE("parse_pqr ends the first model at ENDMDL or at the next MODEL") {
   CHECK(parse_pqr("MODEL 1\n" + atom + "ENDMDL\nMASTER\nEND\n", "f.pqr").warnings.empty());
 }
 
+TEST_CASE("parse_pqr counts one as one") {
+  const std::string atom = "ATOM 1 N ASN 1" + kNumbers + "\n";
+  CHECK(parse_pqr(atom + "END\n" + atom, "f.pqr").warnings.at(0) ==
+        "f.pqr:2: END is followed by 1 atom that is read too");
+  CHECK(parse_pqr(atom + "TOM\n", "f.pqr").warnings.at(0) ==
+        "f.pqr:2: skipped 1 line of no known record, the first 'TOM'");
+}
+
 TEST_CASE("parse_pqr warns of lines that it skips") {
   const std::string atom = "ATOM 1 N ASN 1" + kNumbers + "\n";
   const AtomFile file = parse_pqr("ATOMS 1\n" + atom + "TOM 2\nCONECT12345\n#\nter\n", "f.pqr");

@@ -232,7 +232,9 @@ TEST_CASE("the first model, the first of alternate locations, and no water") {
   CHECK(file.atoms[0].x == 1.5);
   CHECK(file.atoms[1].x == 4.0);
   REQUIRE(file.warnings.size() == 3);
-  CHECK(file.warnings[0] == "a.pdb: left out 1 atoms of models other than the first, which ends in line 6");
+  CHECK(file.warnings[0] == "a.pdb: left out 1 atom of models other than the first, which ends in line 6");
+  CHECK(file.warnings[1] == "a.pdb: left out 1 atom of water");
+  CHECK(file.warnings[2] == "a.pdb: left out 1 atom at alternate locations other than the first");
 }
 
 TEST_CASE("frames are models, however they are parted") {
