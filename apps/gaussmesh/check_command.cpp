@@ -77,7 +77,9 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
 }
 
 int run_check(const CheckOptions& options) {
-  require_other_files({options.mesh, options.molecule.value_or("")}, {options.json.value_or("")});
+  std::vector<std::string> inputs = files_of_molecule(options.molecule.value_or(""), options.reading);
+  inputs.push_back(options.mesh);
+  require_other_files(inputs, {options.json.value_or("")});
   const CheckFindings found = find_all(options);
   put_report(findings_text(found), findings_json(found), options.json);
   return found.is_good() ? kGood : kCheckFailed;

@@ -44,7 +44,8 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
 int run_convert(const ConvertOptions& options) {
   const WriteOptions writing = writing_options(options.writing, options.no_header);
   // The mesh itself may be written over: all of it has been read by then.
-  require_writable_outputs(options.outputs, "", writing, {options.molecule.value_or("")});
+  require_writable_outputs(options.outputs, "", writing,
+                           files_of_molecule(options.molecule.value_or(""), options.reading));
   MeshFile file = read_mesh_argument(options.input);
   const MeshCheck check = check_mesh(file.mesh);
   if (check.bad_indices > 0) {

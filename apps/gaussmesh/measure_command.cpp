@@ -81,8 +81,9 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
 }
 
 int run_measure(const MeasureCommand& command) {
-  require_other_files({command.mesh, command.molecule.value_or("")},
-                      {command.json.value_or(""), command.atom_areas.value_or("")});
+  std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
+  inputs.push_back(command.mesh);
+  require_other_files(inputs, {command.json.value_or(""), command.atom_areas.value_or("")});
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)

@@ -76,7 +76,8 @@ std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t
 /// Finds out what cannot be written where there are so many surfaces.
 void require_writable_files(const MeshCommand& command, std::size_t surfaces) {
   require_writable_outputs(names_of_meshes(command, surfaces), command.report,
-                           writing_options(command.writing, command.no_header), {command.molecule});
+                           writing_options(command.writing, command.no_header),
+                           files_of_molecule(command.molecule, command.reading));
 }
 
 /// What is written.

@@ -18,8 +18,11 @@ struct MoleculeOptions {
 /// What help says of a molecule.
 inline constexpr const char* kMoleculeHelp = "PQR, XYZR, PDB or mmCIF file, plain or gzipped; -: standard input";
 
-/// Adds --radii, --input-format and --probe; `options` must outlive the command. @return the options
+/// Adds --radii, --radii-file, --input-format and --probe; `options` must outlive the command. @return the options
 std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOptions& options);
+
+/// What is read for the molecule, and must not be written over; names may be empty.
+std::vector<std::string> files_of_molecule(const std::string& path, const MoleculeOptions& options);
 
 /// Reads the molecule, prints its warnings unless `quiet`, and adds the probe.
 /// @throws InputError, OptionError

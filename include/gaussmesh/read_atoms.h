@@ -1,4 +1,5 @@
-// Reading atoms from files: PQR, as many programs write it, XYZR, and PDB and mmCIF with radii from a named set.
+// Reading atoms from files: PQR, as many programs write it, XYZR, and PDB and mmCIF with radii from a named set or a
+// file.
 //
 // Every error and warning names the file and, where there is one, the line. Nothing is guessed: a record that
 // cannot be read in one way only is an error, and what is left out of a file is told in a warning.
@@ -34,6 +35,14 @@ inline constexpr double kSuspectRadius = 10.0;
 struct ReadOptions {
   std::string format;  ///< one of atom_formats(); empty: the name decides
   std::string radii;   ///< one of radius_set_names(), for PDB and mmCIF; other files have radii of their own
+
+  /// A file of radii for PDB and mmCIF, whose entries come before those of `radii`, which may then be empty.
+  ///
+  /// A line is `[residue] name radius` (A): the name of an atom, or an element, in any case; `#` starts a comment.
+  /// For an atom the first of these is taken: residue and name, residue and element, name, element. So `CA 2.3` is
+  /// every alpha carbon, and `CA CA 2.3` a calcium ion. Any other line, a radius out of range and an entry that stands
+  /// twice are an InputError.
+  std::filesystem::path radii_file = {};
 };
 
 /// pqr, xyzr, pdb, mmcif.
@@ -105,7 +114,7 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
 /// model is taken, which ends at ENDMDL, END or the next MODEL, of each residue the alternate location that comes
 /// first, and no water (HOH, WAT, TIP3, SOL, ...); warnings count what is left out. Hydrogens are taken if they are
-/// there; none are added. Charges are 0. Radii come from a set:
+/// there; none are added. Charges are 0. Radii come from a file, as ReadOptions has it, or from a set:
 ///
 /// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
 ///   Bondi, J. Phys. Chem. 68:441 (1964)
@@ -119,12 +128,14 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// @throws OptionError  if there is no such set
 /// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, the set has
 ///                      no radius for an atom, or there is none
-AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii);
+AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
+                   const std::filesystem::path& radii_file = {});
 
 /// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does. Where it
 /// has no label_atom_id or label_comp_id, the tags of the authors (auth_...) are read instead.
 ///
 /// @throws InputError  as parse_pdb does, and if the text is no CIF or a column is missing
-AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii);
+AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
+                     const std::filesystem::path& radii_file = {});
 
 }  // namespace gaussmesh

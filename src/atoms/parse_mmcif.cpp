@@ -33,8 +33,9 @@ double coordinate(const std::string& text, const std::string& where) {
 
 }  // namespace
 
-AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii) {
-  StructureBuilder builder(name, radii);
+AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
+                     const std::filesystem::path& radii_file) {
+  StructureBuilder builder(name, {radii, radii_file});
   const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kColumns);
   std::size_t number = 0;
   for (const std::vector<std::string>& row : table.rows) {

@@ -114,8 +114,9 @@ void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& 
 
 }  // namespace
 
-AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii) {
-  StructureBuilder builder(name, radii);
+AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
+                   const std::filesystem::path& radii_file) {
+  StructureBuilder builder(name, {radii, radii_file});
   LineReader lines(require_text(text, name));
   while (const auto line = lines.next()) {
     const LinePlace place{name, lines.number()};

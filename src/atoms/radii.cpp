@@ -219,8 +219,8 @@ RadiusSet::RadiusSet(const std::string& name) : name_(name) {
     return;
   }
   if (name != "amber" && name != "charmm") {
-    throw OptionError("radii: expected bondi, amber or charmm, got '" + name + "'; did you mean '" +
-                      nearest_name(name, radius_set_names()) + "'?");
+    throw OptionError("radii: expected bondi, amber or charmm, got '" + name + "'" +
+                      did_you_mean(name, radius_set_names()));
   }
   is_by_residue_ = true;
   const std::span<const ResidueRadii> table = name == "amber" ? std::span<const ResidueRadii>(kAmber) : kCharmm;

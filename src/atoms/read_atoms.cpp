@@ -25,15 +25,17 @@ std::string choose_format(std::string_view name, const ReadOptions& options) {
   if (options.format.empty()) return format_of_name(name);
   const std::vector<std::string>& known = atom_formats();
   if (std::find(known.begin(), known.end(), options.format) != known.end()) return options.format;
-  throw OptionError("input format: expected pqr, xyzr, pdb or mmcif, got '" + options.format + "'; did you mean '" +
-                    nearest_name(options.format, known) + "'?");
+  throw OptionError("input format: expected pqr, xyzr, pdb or mmcif, got '" + options.format + "'" +
+                    did_you_mean(options.format, known));
 }
 
 /// Throws OptionError if `options` give radii to a file of `format`, which has its own.
 void require_no_radii(const std::string& format, std::string_view name, const ReadOptions& options) {
-  if (options.radii.empty()) return;
-  throw OptionError(std::string(name) + ": expected no --radii for a file that has its own radii, as " +
-                    (format == "pqr" ? "PQR" : "XYZR") + " does, got '" + options.radii +
+  if (options.radii.empty() && options.radii_file.empty()) return;
+  const bool is_set = !options.radii.empty();
+  throw OptionError(std::string(name) + ": expected no --radii" + (is_set ? "" : "-file") +
+                    " for a file that has its own radii, as " + (format == "pqr" ? "PQR" : "XYZR") + " does, got '" +
+                    (is_set ? options.radii : options.radii_file.string()) +
                     "'; if it is another format, say so with --input-format");
 }
 
@@ -43,12 +45,14 @@ AtomFile parse_format(std::string_view data, std::string_view name, const std::s
     require_no_radii(format, name, options);
     return format == "xyzr" ? parse_xyzr(data, name) : parse_pqr(data, name);
   }
-  if (options.radii.empty()) {
+  if (options.radii.empty() && options.radii_file.empty()) {
     throw OptionError(std::string(name) +
-                      ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or make a PQR "
+                      ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or "
+                      "--radii-file, or make a PQR "
                       "file of it with pdb2pqr");
   }
-  return format == "pdb" ? parse_pdb(data, name, options.radii) : parse_mmcif(data, name, options.radii);
+  return format == "pdb" ? parse_pdb(data, name, options.radii, options.radii_file)
+                         : parse_mmcif(data, name, options.radii, options.radii_file);
 }
 
 AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {

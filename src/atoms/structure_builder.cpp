@@ -50,7 +50,7 @@ void StructureBuilder::add(const AtomSite& site) {
   }
   const auto radius = radii_.find(site.residue, site.name, site.element);
   if (!radius) {
-    throw InputError(site.where + ": expected an atom that the radii '" + radii_.name() + "' know, got " + name + ", " +
+    throw InputError(site.where + ": expected an atom that the radii " + radii_.name() + " know, got " + name + ", " +
                      element_text(site) + "; take it out, use other radii, or give it one in a PQR file");
   }
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
@@ -69,6 +69,7 @@ AtomFile StructureBuilder::finish() {
   warn_of(other_models_, "of models other than the first" + end, file_name_, file_);
   warn_of(waters_, "of water", file_name_, file_);
   warn_of(other_locations_, "at alternate locations other than the first", file_name_, file_);
+  radii_.warn(file_);
   return std::move(file_);
 }
 

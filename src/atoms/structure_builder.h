@@ -8,8 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "atoms/radii.h"
+#include "atoms/radius_file.h"
 #include "gaussmesh/read_atoms.h"
 
 namespace gaussmesh {
@@ -32,9 +33,9 @@ struct AtomSite {
 /// leaves out.
 class StructureBuilder {
  public:
-  StructureBuilder(std::string_view file, const std::string& radii) : file_name_(file), radii_(radii) {}
+  StructureBuilder(std::string_view file, AtomRadii radii) : file_name_(file), radii_(std::move(radii)) {}
 
-  /// @throws InputError if the set of radii has none for the atom, or a coordinate is out of range
+  /// @throws InputError if the radii have none for the atom, or a coordinate is out of range
   void add(const AtomSite& site);
 
   /// Ends the model of the atoms so far, in that line of the file; those added from now on are of other models. Does
@@ -48,7 +49,7 @@ class StructureBuilder {
   bool is_taken(const AtomSite& site);
 
   std::string file_name_;
-  RadiusSet radii_;
+  AtomRadii radii_;
   AtomFile file_;
   bool has_model_ = false;
   std::string model_;                              // the first

@@ -118,6 +118,19 @@ class Structures(CliTest):
         said = self.expect(WRONG_USE, self.molecule("methanol"), "--radii", "bondi", "-o", self.mesh).stderr
         self.assertIn("expected no --radii", said)
 
+    def test_radii_of_ones_own(self):
+        self.write("ubq.pdb", self.pdb())
+        self.write("my.radii", "C 1.7\nN 1.55\nO 1.52\nS 1.8\nH 1.2 # all of Bondi that it takes\n")
+        meshes = [self.expect(0, "ubq.pdb", *radii, "--raw", "--spacing", 2, "-o", "-").stdout
+                  for radii in (["--radii", "bondi"], ["--radii-file", "my.radii"])]
+        self.assertEqual(*meshes)
+        self.write("my.radii", "H 0.5\n")
+        both = self.expect(0, "ubq.pdb", "--radii", "bondi", "--radii-file", "my.radii", "--raw", "--spacing", 2, "-o", "-")
+        self.assertNotEqual(both.stdout, meshes[0])
+        self.assertIn("'my.radii' know", self.expect(BAD_INPUT, "ubq.pdb", "--radii-file", "my.radii", "-o", "-").stderr)
+        self.write("my.radii", "H\n")
+        self.assertIn("my.radii:1: expected", self.expect(BAD_INPUT, "ubq.pdb", "--radii-file", "my.radii", "-o", "-").stderr)
+
 
 class BadInput(CliTest):
     GOOD = "ATOM      1  C   X       1       0.000   0.000   0.000  0.00 2.00\n"
@@ -497,7 +510,12 @@ class Running(CliTest):
                         ["check", "out.off", "mol.pqr", "--json", "out.off"],
                         ["compare", "out.off", "out.off", "--json", "./out.off"],
                         ["convert", "out.off", "mol.pqr", "--format", "off", "--molecule", "mol.pqr"],
-                        ["measure", "out.off", "mol.pqr", "--atom-areas", "mol.pqr"]]:
+                        ["measure", "out.off", "mol.pqr", "--atom-areas", "mol.pqr"],
+                        ["mol.pdb", "--radii-file", "mol.pqr", "-o", "new.off", "--report", "mol.pqr"],
+                        ["check", "out.off", "mol.pdb", "--radii-file", "mol.pqr", "--json", "mol.pqr"],
+                        ["convert", "out.off", "mol.pqr", "--format", "off", "--molecule", "m.pdb", "--radii-file",
+                         "mol.pqr"],
+                        ["measure", "out.off", "mol.pdb", "--radii-file", "mol.pqr", "--json", "mol.pqr"]]:
             self.assertIn("which is read", self.expect(WRONG_USE, *command).stderr)
         self.assertEqual((molecule.read_bytes(), self.mesh.read_bytes()), (text, mesh))
         self.assertEqual(self.files(), ["link.off", "mol.pqr", "out.off"])

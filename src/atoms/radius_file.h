@@ -1,0 +1,60 @@
+// Radii that a user wrote into a file, and how they go together with a named set (radii.h).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "atoms/atom_fields.h"
+#include "atoms/radii.h"
+
+namespace gaussmesh {
+
+/// The radii of one file; read_atoms.h has its format.
+class RadiusFile {
+ public:
+  /// @throws InputError as ReadOptions::radii_file says
+  RadiusFile(std::string_view text, std::string_view name);
+
+  /// The radius (A) of an atom; nothing if the file has none. Names in any case.
+  std::optional<double> find(std::string_view residue, std::string_view atom, std::string_view element) const;
+
+  /// Warns of large radii.
+  void warn(AtomFile& file) const { large_radii_.warn(name_, file); }
+
+ private:
+  struct Entry {
+    double radius = 0.0;
+    std::size_t line = 0;
+  };
+  void add_line(std::string_view content, const LinePlace& place);
+
+  std::string name_;
+  FieldSplitter splitter_;
+  LargeRadii large_radii_;
+  std::map<std::string, Entry, std::less<>> entries_;  // by residue, which may be empty, and name, with a blank between
+};
+
+/// All radii that were asked for: an entry of the file comes before those of the set.
+class AtomRadii {
+ public:
+  /// Either may be empty, not both. @throws OptionError, InputError as RadiusSet and RadiusFile do, and if the file
+  /// cannot be read
+  AtomRadii(const std::string& set, const std::filesystem::path& file);
+
+  /// What messages call them, in quotes.
+  const std::string& name() const { return name_; }
+
+  std::optional<double> find(std::string_view residue, std::string_view atom, std::string_view element) const;
+  void warn(AtomFile& file) const;
+
+ private:
+  std::string name_;
+  std::optional<RadiusSet> set_;
+  std::optional<RadiusFile> file_;
+};
+
+}  // namespace gaussmesh
