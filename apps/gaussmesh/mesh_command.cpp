@@ -45,6 +45,12 @@ void require_sense(const MeshCommand& command) {
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
+  for (const std::string& output : command.outputs) {
+    // Its hole and region points are those of a whole molecule: a cavity by itself has nothing inside.
+    if (is_separate && format_of(output, writing_options(command.writing, command.no_header)).name == "smesh")
+      throw OptionError("--cavities separate: expected a format that holds a surface alone, got smesh for '" + output +
+                        "', which wants cavities together with what they are in");
+  }
 }
 
 /// Where temporary files for an output belong.
@@ -158,43 +164,39 @@ void print_details(const MeshReport& report, std::ostream& out) {
     out << "  " << stage.name << ": " << stage.time_s << " s, " << stage.peak_memory_MB << " MB\n";
 }
 
-}  // namespace
-
-std::vector<std::string> cavity_choices() { return {"keep", "drop", "separate"}; }
-
-void add_mesh_options(CLI::App& program, MeshCommand& command) {
-  program.add_option("molecule", command.molecule, kMoleculeHelp)->type_name("MOL");
-
-  const std::string surface = "Surface";
-  for (CLI::Option* option : add_surface_options(program, command.surface)) option->group(surface);
+void add_surface_group(CLI::App& program, MeshCommand& command) {
+  const std::string group = "Surface";
+  for (CLI::Option* option : add_surface_options(program, command.surface)) option->group(group);
   for (CLI::Option* option : add_molecule_options(program, command.reading))
-    option->group(option->check_lname("probe") ? surface : "Input");
+    option->group(option->check_lname("probe") ? group : "Input");
   program
       .add_option("--cavities", command.cavities,
                   "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
                   "first (default: keep)")
       ->type_name("NAME")
       ->check(one_of(cavity_choices()))
-      ->group(surface);
+      ->group(group);
   program
       .add_option("--min-cavity-volume", command.min_cavity_volume,
                   "fill cavities of less than this (A^3, >= 0; one water is 11.4; default: 0)")
       ->type_name("V")
       ->check(number_from(0.0))
-      ->group(surface);
+      ->group(group);
   program
       .add_flag("--allow-uncertified", command.options.allow_uncertified,
                 "where c is too near a critical value for a proof, mesh a level beside it (default: off)")
-      ->group(surface);
+      ->group(group);
+}
 
-  const std::string triangles = "Triangles";
+void add_triangle_group(CLI::App& program, MeshCommand& command) {
+  const std::string group = "Triangles";
   CLI::Option* spacing =
       program
           .add_option("--spacing", command.options.spacing,
                       "wanted mean edge of the triangles (A, 0.01 to 200, with --raw to 1000; default: 0.5)")
           ->type_name("H")
           ->check(number_between(0.01, 1000.0))
-          ->group(triangles);
+          ->group(group);
   program
       .add_option(
           "--density", command.density,
@@ -203,7 +205,7 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
       ->type_name("V")
       ->check(number_between(2e-6, 1e4))
       ->excludes(spacing)
-      ->group(triangles);
+      ->group(group);
   CLI::Option* tolerance =
       program
           .add_option("--tolerance", command.options.tolerance,
@@ -211,45 +213,61 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
                       "default: 0, no limit)")
           ->type_name("T")
           ->check(number_between(0.0, 1000.0))
-          ->group(triangles);
+          ->group(group);
   program
       .add_flag_callback(
           "--raw", [&command] { command.options.improve = false; },
           "leave the triangles as traced, slivers and all; not with --tolerance (default: off)")
       ->excludes(tolerance)
-      ->group(triangles);
+      ->group(group);
+}
 
-  const std::string output = "Output";
+void add_output_group(CLI::App& program, MeshCommand& command) {
+  const std::string group = "Output";
   program
       .add_option("-o,--output", command.outputs,
                   "mesh to write; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
-      ->group(output);
-  for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(output);
+      ->group(group);
+  for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(group);
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
       ->type_name("FILE")
-      ->group(output);
+      ->group(group);
+}
 
-  const std::string running = "Running";
+void add_running_group(CLI::App& program, MeshCommand& command) {
+  const std::string group = "Running";
   program.add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
       ->type_name("N")
       ->check(number_between(0.0, 4096.0))
-      ->group(running);
+      ->group(group);
   program
       .add_option("--max-memory", command.max_memory,
                   "memory to get by with, such as 500M or 4G, at least 128M: what does not fit is kept in a temporary "
                   "file beside the mesh (bytes; default: no limit)")
       ->type_name("SIZE")
       ->transform(memory_size(kLeastMemory))
-      ->group(running);
+      ->group(group);
   CLI::Option* quiet =
-      program.add_flag("--quiet", command.quiet, "say nothing but errors (default: off)")->group(running);
+      program.add_flag("--quiet", command.quiet, "say nothing but errors (default: off)")->group(group);
   program.add_flag("--verbose", command.verbose, "say also how each stage went (default: off)")
       ->excludes(quiet)
-      ->group(running);
+      ->group(group);
+}
+
+}  // namespace
+
+std::vector<std::string> cavity_choices() { return {"keep", "drop", "separate"}; }
+
+void add_mesh_options(CLI::App& program, MeshCommand& command) {
+  program.add_option("molecule", command.molecule, kMoleculeHelp)->type_name("MOL");
+  add_surface_group(program, command);
+  add_triangle_group(program, command);
+  add_output_group(program, command);
+  add_running_group(program, command);
 }
 
 int run_mesh(const MeshCommand& command) {

@@ -528,6 +528,7 @@ class Running(CliTest):
         self.assertIn("expected another file to write than 'mol_1.pqr'", error)
         error = self.expect(WRONG_USE, *separate, "-o", "out.off", "--report", "out_1.off").stderr
         self.assertIn("expected each output once, got 'out_1.off' again", error)
+        self.assertIn("got smesh", self.expect(WRONG_USE, *separate[:3], "-o", "out.smesh").stderr)
         self.assertEqual(molecule.read_bytes(), text)
         self.assertEqual(self.files(), ["mol_1.pqr"])
 
