@@ -22,8 +22,8 @@ struct MeshFile {
 /// case, before a `.gz` if there is one; files of any other name, and streams, by what is in them, which tells all but
 /// MSMS. Of MSMS either file may be named: both are read.
 ///
-/// - OFF: comments, blank lines, colours of faces, and colours and places in a texture of vertices (`COFF`, `STOFF`) are
-///   passed over. Normals of `NOFF` and `CNOFF` are kept. Binary OFF, and vertices in four or more dimensions, are
+/// - OFF: comments, blank lines, colours of faces, and colours and places in a texture of vertices (`COFF`, `STOFF`)
+///   are passed over. Normals of `NOFF` and `CNOFF` are kept. Binary OFF, and vertices in four or more dimensions, are
 ///   refused.
 /// - PLY: ascii and binary of either byte order; other properties and elements are passed over.
 /// - OBJ: `v`, `vn` and `f`, the rest is passed over. Normals are kept where every corner has that of its vertex.

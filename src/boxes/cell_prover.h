@@ -71,12 +71,12 @@ class CellProver {
   /// Axes with their signs, numbered as bits, that no eighth refutes: those that fewest leave open come first.
   static std::vector<int> promising_directions(const std::array<Eighth, 8>& eighths, const SortedAxes& axes);
 
-  /// Where no axis serves the surface bends too far. A direction in the midst of its gradients may do, and where it does
-  /// not, one nearer to the gradient that was against it.
+  /// Where no axis serves the surface bends too far. A direction in the midst of its gradients may do, and where it
+  /// does not, one nearer to the gradient that was against it.
   CellCertificate certify_aslant(const std::array<Eighth, 8>& eighths);
 
-  /// Looks for a part of the cell where phi may pass c against the direction, given what tells at once of an eighth that
-  /// there is none. @return the gradient there; nothing: the direction is proven
+  /// Looks for a part of the cell where phi may pass c against the direction, given what tells at once of an eighth
+  /// that there is none. @return the gradient there; nothing: the direction is proven
   template <typename Look>
   std::optional<Vec3> find_counterexample(const std::array<Eighth, 8>& eighths, const Direction& direction,
                                           const Look& holds_at_a_look);

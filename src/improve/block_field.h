@@ -36,10 +36,10 @@ struct RoughAtoms {
   std::vector<float> x, y, z, w;  ///< centres (A) and log-weights
 };
 
-/// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for
-/// each block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where
-/// rough places are asked for, which are found in single precision; less where the field hardly changes. No bounds are kept, since the verdict on a
-/// finished mesh does not come from here.
+/// The atoms of a block in lists for small cells, each made when it is first asked for. Not thread-safe: one for each
+/// block. What is left out of the sums is below e^-24 (4e-11) of the isovalue an atom, or e^-16 (1e-7) where rough
+/// places are asked for, which are found in single precision; less where the field hardly changes. No bounds are kept,
+/// since the verdict on a finished mesh does not come from here.
 class BlockField {
  public:
   BlockField(const GaussianField& field, const Box& box);

@@ -62,8 +62,8 @@ class HalfEdgeMesh {
   /// @param h  can_flip(h)
   void flip(Index h);
 
-  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3 at least. Refused unless
-  /// all four are inner.
+  /// Link condition: the ends have exactly two neighbours in common, and those keep a valence of 3 at least. Refused
+  /// unless all four are inner.
   bool can_collapse(Index h) const;
   /// Moves from(h) into to(h): the vertex from(h) and two triangles are gone. @param h  can_collapse(h)
   void collapse(Index h);

@@ -23,8 +23,8 @@ class TriangleRepair {
   }
 
  private:
-  // Lengths are in wanted edges. A collapse or a split is meant for edges that are short or long anyway, so that the next
-  // round does not take it back.
+  // Lengths are in wanted edges. A collapse or a split is meant for edges that are short or long anyway, so that the
+  // next round does not take it back.
   static constexpr double kShort = 0.8, kLong = 1.2, kLongestAfterCollapse = 1.7;
   static constexpr double kLeastScoreAfterCollapse = 0.8;  ///< others may come out a little bad, to be mended in turn
   static constexpr double kFirstReach = 0.15;              ///< of the search for a better place

@@ -8,8 +8,8 @@ namespace gaussmesh {
 /// From here on a triangle's cost says that it is turned more than 60 degrees from the surface: see shape_cost().
 inline constexpr double kPoorTriangle = 10.0;
 
-/// From here on it says that it is turned more than 85 degrees. More than all others of a polygon can add up to, so that
-/// the sum of their costs tells whether there is one.
+/// From here on it says that it is turned more than 85 degrees. More than all others of a polygon can add up to, so
+/// that the sum of their costs tells whether there is one.
 inline constexpr double kTurnedTriangle = 1e4;
 
 /// Cosine of the angle between the normal of the triangle p q r and a direction.

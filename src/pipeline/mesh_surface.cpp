@@ -212,8 +212,8 @@ class SurfaceMesher {
     }
   }
 
-  /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is finer
-  /// than they are cannot always be mended, but those of a finer trace can.
+  /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is
+  /// finer than they are cannot always be mended, but those of a finer trace can.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
     constexpr int kLevels[] = {3, 5};   // one after the other
     constexpr double kMostThin = 0.02;  // of the vertices; more are left where no triangles are small enough

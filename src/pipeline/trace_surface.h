@@ -32,8 +32,8 @@ struct TraceDemands {
 using StageClock = std::function<void(const std::string&)>;
 
 /// Traces the surface of `field`.
-/// @throws LatticeDegenerate if the surface is degenerate with respect to each of a few lattices, and not for the reason
-///         that c is next to a critical value; that counts as uncertified
+/// @throws LatticeDegenerate if the surface is degenerate with respect to each of a few lattices, and not for the
+///         reason that c is next to a critical value; that counts as uncertified
 TraceResult trace_surface(const GaussianField& field, const TraceDemands& demands, int threads,
                           const StageClock& finished);
 

@@ -50,8 +50,8 @@ struct FaceCurves {
 ///
 /// Where the face has a certificate along an axis m, the section is a graph over the other axis o, over disjoint
 /// intervals; the roots in order of o are their ends, two by two. Where chords will do, a slanted direction serves as
-/// well, and so does a proof that no curve closes, if there are two roots or none. Other faces are cut in four, and so on:
-/// the pieces are joined through the roots on the cuts, and curves that close inside the face are found too. Curves
+/// well, and so does a proof that no curve closes, if there are two roots or none. Other faces are cut in four, and so
+/// on: the pieces are joined through the roots on the cuts, and curves that close inside the face are found too. Curves
 /// become chords between their ends; a curve that turns back to the edge it came from keeps its turning point - the
 /// fold point - and more points are kept where polygons would cross. Keeps buffers: one for each thread.
 class FaceTracer {

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Functions so marked are compiled for several instruction sets, the best of which is chosen while the program is loaded,
-// before a sanitizer's runtime is ready, and instrumented code would crash there: sanitizers, and other compilers and
-// processors, take the portable code.
+// Functions so marked are compiled for several instruction sets, the best of which is chosen while the program is
+// loaded, before a sanitizer's runtime is ready, and instrumented code would crash there: sanitizers, and other
+// compilers and processors, take the portable code.
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define GAUSSMESH_LANE_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

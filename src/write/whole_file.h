@@ -11,7 +11,8 @@ namespace gaussmesh {
 /// Collects output in a temporary file beside `path`; commit() renames it. Without commit() nothing is left behind.
 ///
 /// Where there is no file that could be replaced - `-` for standard output, devices, pipes, also those that the shell
-/// names /dev/fd/N - the output goes there at once. A symbolic link is followed, also where it leads to nothing yet. What is replaced keeps its permissions.
+/// names /dev/fd/N - the output goes there at once. A symbolic link is followed, also where it leads to nothing yet.
+/// What is replaced keeps its permissions.
 class WholeFile {
  public:
   /// @throws InputError if no file can be made there

@@ -17,8 +17,8 @@ constexpr Normal kUp{0, 0, 1}, kDown{0, 0, -1};
 
 Index vertex(int i, int j) { return static_cast<Index>(i * kSide + j); }
 
-/// The triangles of a square of unit cells, cut from corner (i, j) to corner (i + 1, j + 1); counter-clockwise seen from
-/// above, or from below. Vertices are numbered from `first`.
+/// The triangles of a square of unit cells, cut from corner (i, j) to corner (i + 1, j + 1); counter-clockwise seen
+/// from above, or from below. Vertices are numbered from `first`.
 std::vector<Triangle> square_triangles(Index first, bool from_above) {
   std::vector<Triangle> triangles;
   for (int i = 0; i + 1 < kSide; ++i) {
