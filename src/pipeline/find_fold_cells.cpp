@@ -46,7 +46,7 @@ class CellSurface {
     find_boundary();
     std::map<int, FoldComponent> by_root;
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      FoldComponent& c = by_root.try_emplace(find(static_cast<int>(v)), FoldComponent{0, 0, -1, {}}).first->second;
+      FoldComponent& c = by_root.try_emplace(find(static_cast<int>(v)), FoldComponent{0, 0, {}, {}}).first->second;
       ++c.chi;
       const SurfacePoint& point = points_[vertices_[v]];
       const unsigned faces = faces_of(point.position, lo, hi);
