@@ -291,7 +291,7 @@ int run_mesh(const MeshCommand& command) {
   VertexData data = find_vertex_data(command, input.atoms, result);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
-  require_writable_files(command, product.report.check.components.size());
+  if (command.cavities == "separate") require_writable_files(command, product.report.check.components.size());
   const std::string first = write_all(command, product);
   if (command.quiet) return 0;
   std::ostream& out = is_standard_output_taken(command) ? std::cerr : std::cout;

@@ -4,6 +4,7 @@
 #include "atoms/atom_fields.h"
 #include "atoms/pqr_checks.h"
 #include "atoms/pqr_record.h"
+#include "core/number_text.h"
 #include "gaussmesh/error.h"
 
 namespace gaussmesh {
@@ -183,22 +184,23 @@ void PqrParser::note_unknown(std::string_view content) {
 void PqrParser::warn_of_models() {
   if (atoms_in_other_models_ > 0) {
     file_.warnings.push_back(to_string({name_, *model_end_line_}) + ": the first model ends here; left out " +
-                             counted(atoms_in_other_models_, "atom") + " of other models");
+                             counted(atoms_in_other_models_, "atom", "atoms") + " of other models");
   }
 }
 
 void PqrParser::warn_of_end() {
   if (atoms_after_end_ > 0) {
     file_.warnings.push_back(to_string({name_, *end_line_}) + ": END is followed by " +
-                             counted(atoms_after_end_, "atom") + (atoms_after_end_ == 1 ? " that is" : " that are") +
-                             " read too");
+                             counted(atoms_after_end_, "atom", "atoms") +
+                             (atoms_after_end_ == 1 ? " that is" : " that are") + " read too");
   }
 }
 
 void PqrParser::warn_of_unknown() {
   if (unknown_lines_ > 0) {
-    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " + counted(unknown_lines_, "line") +
-                             " of no known record, the first " + quoted(first_unknown_));
+    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " +
+                             counted(unknown_lines_, "line", "lines") + " of no known record, the first " +
+                             quoted(first_unknown_));
   }
 }
 

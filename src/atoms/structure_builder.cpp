@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "atoms/residue_names.h"
+#include "core/number_text.h"
 #include "gaussmesh/error.h"
 #include "text/text_lines.h"
 
@@ -14,7 +15,7 @@ std::string element_text(const AtomSite& site) {
 }
 
 void warn_of(std::size_t count, const std::string& what, const std::string& name, AtomFile& file) {
-  if (count > 0) file.warnings.push_back(name + ": left out " + counted(count, "atom") + " " + what);
+  if (count > 0) file.warnings.push_back(name + ": left out " + counted(count, "atom", "atoms") + " " + what);
 }
 
 }  // namespace

@@ -63,10 +63,6 @@ std::string quoted(std::string_view text) {
   return result + (text.size() > kLongestQuote ? "...'" : "'");
 }
 
-std::string counted(std::size_t count, std::string_view noun) {
-  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
-}
-
 void fail_at(const LinePlace& place, std::string_view expected, std::string_view got, std::string_view remedy) {
   throw InputError(to_string(place) + ": expected " + std::string(expected) + ", got " + quoted(got) +
                    std::string(remedy));

@@ -23,9 +23,6 @@ std::string to_string(const LinePlace& place);
 /// text cut off.
 std::string quoted(std::string_view text);
 
-/// `1 atom`, `2 atoms`: a number and what it counts, `noun` in the singular.
-std::string counted(std::size_t count, std::string_view noun);
-
 /// Throws InputError `file:line: expected <expected>, got '<got>'<remedy>`; `remedy` brings its own "; ".
 [[noreturn]] void fail_at(const LinePlace& place, std::string_view expected, std::string_view got,
                           std::string_view remedy = {});

@@ -81,10 +81,6 @@ std::size_t count_cavities(const MeshCheck& check) {
   return cavities;
 }
 
-std::string counted(std::size_t n, const std::string& singular, const std::string& plural) {
-  return std::to_string(n) + " " + (n == 1 ? singular : plural);
-}
-
 }  // namespace
 
 std::string report_json(const MeshReport& report) {

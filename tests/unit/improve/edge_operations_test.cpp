@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "catch2.h"
+#include "support/block_mesh.h"
 
 using namespace gaussmesh;
+using gaussmesh::testing::triangles_of;
 
 namespace {
 
@@ -92,12 +94,6 @@ Index half_edge(const BlockMesh& mesh, Index u, Index v) {
   }
   FAIL("no edge from " << u << " to " << v);
   return HalfEdgeMesh::kNone;
-}
-
-std::vector<Triangle> triangles_of(const BlockMesh& mesh) {
-  std::vector<Triangle> triangles;
-  for (Index t = 0; t < mesh.connectivity.triangles(); ++t) triangles.push_back(mesh.connectivity.triangle(t));
-  return triangles;
 }
 
 }  // namespace

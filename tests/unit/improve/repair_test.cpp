@@ -4,6 +4,7 @@
 #include "catch2.h"
 #include "improve/bad_places.h"
 #include "improve/size_field.h"
+#include "support/block_mesh.h"
 #include "support/meshing.h"
 #include "support/whole_mesh.h"
 
@@ -39,12 +40,6 @@ struct Sphere {
   BlockMesh block;
   BlockField block_field;
 };
-
-std::vector<Triangle> triangles_of(const BlockMesh& mesh) {
-  std::vector<Triangle> triangles;
-  for (Index t = 0; t < mesh.connectivity.triangles(); ++t) triangles.push_back(mesh.connectivity.triangle(t));
-  return triangles;
-}
 
 }  // namespace
 
