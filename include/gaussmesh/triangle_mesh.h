@@ -8,6 +8,7 @@
 namespace gaussmesh {
 
 using Point = std::array<double, 3>;            ///< x, y, z in A
+using Normal = std::array<float, 3>;            ///< of length 1, pointing into the solvent
 using Triangle = std::array<std::uint32_t, 3>;  ///< 0-based vertex numbers, counter-clockwise seen from the solvent
 
 /// An indexed triangle mesh. Nothing is promised of it here: verify/ says what holds.

@@ -1,7 +1,6 @@
 // What a mesh file can hold beside the triangles.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,8 +9,6 @@
 #include "gaussmesh/triangle_mesh.h"
 
 namespace gaussmesh {
-
-using Normal = std::array<float, 3>;  ///< of length 1, pointing into the solvent
 
 /// What is known at the vertices of a mesh: each list has one entry for each vertex, or is empty.
 struct VertexData {

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/hash.h"
+
 namespace gaussmesh {
 
 using Coord = std::int64_t;  ///< a coordinate in units of 1e-9 A
@@ -94,10 +96,10 @@ std::size_t lattice_hash(const FineIndex& lo, int level, unsigned kind) {
   std::uint64_t around = static_cast<std::uint64_t>(level);
   std::size_t part = 0;
   for (const std::int64_t v : lo) {
-    around = (around ^ static_cast<std::uint64_t>(v >> (shift + 1))) * 0x9E3779B97F4A7C15ull + (around >> 29);
+    around = add_to_hash(around, v >> (shift + 1));
     part = 2 * part + static_cast<std::size_t>(v >> shift & 1);
   }
-  return 8 * kinds * (around ^ (around >> 32)) + kinds * part + kind;
+  return 8 * kinds * spread_hash(around) + kinds * part + kind;
 }
 
 struct CellKeyHash {

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/lattice.h"
+#include "gaussmesh/triangle_mesh.h"
 
 namespace gaussmesh {
 
 /// Distance of a coordinate from an interval, zero inside.
 inline double gap(double p, double lo, double hi) { return std::max(0.0, std::max(lo - p, p - hi)); }
-
-using Normal = std::array<float, 3>;  ///< a unit vector, as it is kept
 
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }

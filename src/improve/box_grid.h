@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/hash.h"
 #include "core/vectors.h"
 
 namespace gaussmesh {
@@ -78,14 +79,6 @@ class BoxGrid {
   };
 
  private:
-  struct CubeHash {
-    std::size_t operator()(const Cube& cube) const {
-      std::uint64_t h = 0;
-      for (const std::int64_t i : cube) h = (h ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ull + (h >> 29);
-      return h ^ (h >> 32);
-    }
-  };
-
   double plane(int axis, std::int64_t i) const { return shift_[axis] + static_cast<double>(i) * edge_; }
 
   template <typename Visit>
@@ -100,7 +93,7 @@ class BoxGrid {
 
   double edge_, per_edge_;
   Vec3 shift_;
-  std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> numbers_;
+  std::unordered_map<Cube, std::vector<std::uint32_t>, IndexHash> numbers_;
 };
 
 }  // namespace gaussmesh

@@ -41,8 +41,7 @@ struct Geometry {
 
 }  // namespace
 
-double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
-                     const std::array<float, 3>& direction) {
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, const Normal& direction) {
   return cosine_between(area_normal(p, q, r), direction);
 }
 

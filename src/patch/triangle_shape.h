@@ -13,8 +13,7 @@ inline constexpr double kPoorTriangle = 10.0;
 inline constexpr double kTurnedTriangle = 1e4;
 
 /// Cosine of the angle between the normal of the triangle p q r and a direction.
-double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r,
-                     const std::array<float, 3>& direction);
+double normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r, const Normal& direction);
 
 /// The least of these over the field's normals at the three corners.
 double least_normal_cosine(const SurfacePoint& p, const SurfacePoint& q, const SurfacePoint& r);

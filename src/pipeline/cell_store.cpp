@@ -13,7 +13,7 @@ namespace {
 /// A root without what the edge that it is on tells.
 struct RootOnEdge {
   Coord at = 0;
-  std::array<float, 3> normal{};
+  Normal normal{};
   std::int8_t rise = 0;
 };
 
@@ -102,12 +102,6 @@ FineIndex lowest_corner(const BrickIndex& brick, int local) {
 }
 
 }  // namespace
-
-std::size_t CellStore::IndexHash::operator()(const BrickIndex& b) const {
-  std::uint64_t h = 0;
-  for (std::int64_t v : b) h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ull + (h >> 29);
-  return h ^ (h >> 32);
-}
 
 CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);

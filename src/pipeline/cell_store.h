@@ -116,9 +116,6 @@ class CellStore {
   std::uint32_t root_vertices() const { return static_cast<std::uint32_t>(roots_.size()); }
 
  private:
-  struct IndexHash {
-    std::size_t operator()(const BrickIndex& b) const;
-  };
   std::vector<Brick> bricks_;
   std::vector<SurfaceCell> cells_;           ///< by brick
   std::vector<Link> links_;                  ///< by brick

@@ -38,7 +38,7 @@ double cubic_zero(double x, double f, double f1, double f2, double f3) {
 
 }  // namespace
 
-std::array<float, 3> outward_normal(const Vec3& g) {
+Normal outward_normal(const Vec3& g) {
   const double length = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   const double f = length > 0.0 ? -1.0 / length : 0.0;
   return {static_cast<float>(f * g[0]), static_cast<float>(f * g[1]), static_cast<float>(f * g[2])};

@@ -10,14 +10,15 @@
 #include "field/gaussian_field.h"
 #include "field/lazy_model.h"
 #include "field/point_value.h"
+#include "gaussmesh/triangle_mesh.h"
 
 namespace gaussmesh {
 
 /// A point of the surface, rounded to the units that are written, with the direction into the solvent.
 struct SurfacePoint {
   CoordPoint position{};
-  std::array<float, 3> normal{};  ///< -grad phi / |grad phi|
-  std::uint8_t fold_axes = 0;     ///< bit k: a fold point, d(phi)/dx_k = 0 here
+  Normal normal{};             ///< -grad phi / |grad phi|
+  std::uint8_t fold_axes = 0;  ///< bit k: a fold point, d(phi)/dx_k = 0 here
 };
 
 /// A place where a lattice edge goes through the surface.
@@ -103,6 +104,6 @@ LineRoot refine_root(const GaussianField& field, const NearAtoms& atoms, const V
                      double b, bool inside_a, double guess);
 
 /// -gradient / |gradient|.
-std::array<float, 3> outward_normal(const Vec3& gradient);
+Normal outward_normal(const Vec3& gradient);
 
 }  // namespace gaussmesh
