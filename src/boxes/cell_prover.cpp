@@ -42,9 +42,9 @@ CellCertificate CellProver::certify(const NearAtoms& atoms, const LazyModel& laz
     const unsigned both = known.directions >> (2 * axis) & 3u;
     return both == 0 ? 0 : both == 1 ? -1 : 1;
   };
-  if (known.steepest_axis >= 0) {
-    const int sign = known_sign(known.steepest_axis);
-    if (sign != 0) return {Kind::kMonotone, along_axis(known.steepest_axis, sign), axes_of(known.directions)};
+  if (known.steepest_axis) {
+    const int sign = known_sign(*known.steepest_axis);
+    if (sign != 0) return {Kind::kMonotone, along_axis(*known.steepest_axis, sign), axes_of(known.directions)};
   }
   const LocalModel& model = lazy_model.get();
   const LocalModel::View view = model.over_all();

@@ -27,9 +27,9 @@ struct CellCertificate {
 
 /// What is known of a cell before one looks at it.
 struct KnownOfCell {
-  bool is_crossed = false;  ///< the surface passes through it
-  unsigned directions = 0;  ///< proven: bit 2 k + 1 is growth along axis k, bit 2 k fall
-  int steepest_axis = -1;   ///< along which phi changes most; -1: not known
+  bool is_crossed = false;           ///< the surface passes through it
+  unsigned directions = 0;           ///< proven: bit 2 k + 1 is growth along axis k, bit 2 k fall
+  std::optional<int> steepest_axis;  ///< along which phi changes most
 };
 
 /// Proves directions of cells, looking closer through sub-boxes where the cell as a whole does not show one.

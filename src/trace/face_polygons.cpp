@@ -19,13 +19,13 @@ void FaceTracer::collect_chains(std::span<const FaceRoot> roots) {
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (!starts_curve({static_cast<int>(i), roots[i].boundary_side})) continue;
     chains_.push_back({static_cast<int>(i), false});
-    for (int p = static_cast<int>(i); p >= 0; p = points_[p].next) seen[p] = true;
+    for (int p = static_cast<int>(i); p != kEnd; p = points_[p].next) seen[p] = true;
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (seen[i]) continue;
     chains_.push_back({static_cast<int>(i), true});
     for (int p = static_cast<int>(i); !seen[p]; p = points_[p].next) {
-      if (points_[p].next < 0) throw LatticeDegenerate(to_angstrom(points_[p].point.position));
+      if (points_[p].next == kEnd) throw LatticeDegenerate(to_angstrom(points_[p].point.position));
       seen[p] = true;
     }
   }
@@ -33,7 +33,7 @@ void FaceTracer::collect_chains(std::span<const FaceRoot> roots) {
 
 int FaceTracer::length_of(const Chain& chain) const {
   int count = points_[chain.first].kept;
-  for (int p = points_[chain.first].next; p >= 0 && p != chain.first; p = points_[p].next) count += points_[p].kept;
+  for (int p = points_[chain.first].next; p != kEnd && p != chain.first; p = points_[p].next) count += points_[p].kept;
   return count;
 }
 
@@ -58,7 +58,7 @@ void FaceTracer::choose_points(const Chain& chain) {
     return;
   }
   int last = chain.first;
-  while (points_[last].next >= 0) last = points_[last].next;
+  while (points_[last].next != kEnd) last = points_[last].next;
   const PlanePoint p = plane(chain.first), q = plane(last);
   const int a = first_axis(axis_), b = second_axis(axis_);
   const bool same_a = p.a == q.a && (p.a == face_.lo[a] || p.a == face_.hi[a]);
@@ -85,10 +85,10 @@ void FaceTracer::keep_fold_points(const Chain& chain, int axis) {
       points_[p].point.normal = outward_normal(value.gradient);
     }
     const int next = points_[p].next;
-    if (next < 0 || next == chain.first) break;
+    if (next == kEnd || next == chain.first) break;
     p = next;
   }
-  for (int p = chain.first; points_[p].next >= 0;) {
+  for (int p = chain.first; points_[p].next != kEnd;) {
     const int next = points_[p].next;
     insert_fold_points(p, axis);
     p = next;
@@ -207,7 +207,7 @@ void FaceTracer::visit_sides(const Chain& chain, const Visit& visit) const {
   int start = chain.first;
   while (!points_[start].kept) start = points_[start].next;
   int from = start;
-  for (int p = points_[start].next; p >= 0; p = points_[p].next) {
+  for (int p = points_[start].next; p != kEnd; p = points_[p].next) {
     if (points_[p].kept) {
       visit(from, p);
       from = p;
@@ -234,7 +234,7 @@ void FaceTracer::refine_all() {
   if (!all_kept) return;
   const std::size_t count = points_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (points_[i].next >= 0) points_[insert_middle(static_cast<int>(i))].kept = true;
+    if (points_[i].next != kEnd) points_[insert_middle(static_cast<int>(i))].kept = true;
   }
 }
 

@@ -75,13 +75,15 @@ class FaceTracer {
                           std::span<const FaceRoot> roots, unsigned fold_axes = 0);
 
  private:
+  static constexpr int kEnd = -1;  ///< no point follows: the end of a curve that is not closed
+
   struct TracePoint {
     SurfacePoint point;
     std::uint32_t vertex = 0;  ///< kLocalVertex for a point inside the face
     int rise = 0;
     bool kept = false;
-    int next = -1;   ///< index into points_
-    int piece = -1;  ///< piece that leads to `next`
+    int next = kEnd;  ///< index into points_
+    int piece = 0;    ///< piece that leads to `next`, if there is one
   };
   struct Rect {
     CoordPoint lo, hi;
