@@ -8,8 +8,11 @@
 
 #include "core/lattice_degenerate.h"
 #include "gaussmesh/error.h"
+#include "pipeline/assemble_surface.h"
+#include "pipeline/cell_triangulator.h"
 #include "pipeline/critical_point.h"
 #include "pipeline/find_fold_cells.h"
+#include "pipeline/trace_bricks.h"
 
 namespace gaussmesh {
 namespace {
@@ -63,7 +66,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, const T
   mark_folds(search.folds, store);
   TracedVertices vertices(store);
   auto split = std::make_optional<SplitLattice>(field, lattice, store, search.folds, vertices);
-  CellTriangulator cells(field, lattice, store, demands.for_improvement, demands.fine_places);
+  CellTriangulator cells(field, lattice, store, demands);
   std::vector<CellKey> to_split = search.to_split;
   for (int round = 0; round < kMaxRounds; ++round) {
     split->split(to_split, threads);
@@ -80,7 +83,7 @@ TraceResult trace_on(const GaussianField& field, const Lattice& lattice, const T
       result.cells_split = split->split_cells();
       split.reset();  // nobody asks for its cells and curves any more, and the mesh needs the room
       result.cells_cut_by_folds = cells.fold_cells();
-      result.surface = std::move(cells).join(store, vertices, threads);
+      result.surface = assemble_surface(std::move(cells).release(), store, vertices, threads);
       finished("patches");
       return result;
     }

@@ -3,8 +3,11 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "pipeline/assemble_surface.h"
+#include "improve/improve_surface.h"
+#include "pipeline/split_lattice.h"
+#include "pipeline/trace_demands.h"
 
 namespace gaussmesh {
 
@@ -18,14 +21,6 @@ struct TraceResult {
   std::size_t cells_cut_by_folds = 0;
   double cell_size = 0.0;     ///< A: the spacing, but for a rounding
   double smallest_box = 0.0;  ///< A
-};
-
-/// How finely the surface is to be traced.
-struct TraceDemands {
-  double spacing = 0.5;  ///< A: the size of the cells
-  /// Cells are split also where triangles are turned or thin in ways that improvement cannot mend.
-  bool for_improvement = false;
-  std::vector<FinePlace> fine_places{};  ///< cells are split there also
 };
 
 /// Called at the end of each stage with its name.
