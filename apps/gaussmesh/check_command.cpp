@@ -1,15 +1,13 @@
 #include "check_command.h"
 
 #include "check_report.h"
+#include "exit_code.h"
 #include "output_options.h"
 #include "report_parts.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
-
-constexpr int kGood = 0;
-constexpr int kCheckFailed = 5;
 
 /// A: with 250 pairs nearer than this, TABI-PB's GMRES did not converge.
 constexpr double kSolverSeparation = 0.05;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gaussmesh/mesh_surface.h"
 #include "report_parts.h"
 
 namespace gaussmesh::app {
@@ -131,19 +132,6 @@ std::string verdict_text(const CheckFindings& found) {
   return "FAILED: " + reasons.substr(2) + "\n";
 }
 
-Json quality_json(const MeshCheck& mesh) {
-  return {{"min_angle_deg", mesh.min_angle_deg},
-          {"max_angle_deg", mesh.max_angle_deg},
-          {"mean_min_angle_deg", mesh.mean_min_angle_deg},
-          {"fraction_under_30_deg", mesh.fraction_under_30_deg},
-          {"mean_edge_ratio", mesh.mean_edge_ratio},
-          {"min_edge_A", mesh.min_edge},
-          {"mean_edge_A", mesh.mean_edge},
-          {"max_edge_A", mesh.max_edge},
-          {"edge_ratio_histogram_by_0.05", mesh.ratio_histogram},
-          {"angle_histogram_by_10_deg", mesh.angle_histogram}};
-}
-
 Json near_json(const CheckFindings& found) {
   if (!found.near) return nullptr;
   return {{"separation_A", found.separation},
@@ -189,7 +177,7 @@ std::string findings_json(const CheckFindings& found) {
                      {"defects", defects},
                      {"intersecting_examples", found.mesh.intersecting_examples},
                      {"components", components_json(found.mesh)},
-                     {"quality", quality_json(found.mesh)},
+                     {"quality", Json::parse(quality_json(found.mesh))},
                      {"near_vertices", near_json(found)},
                      {"charges_outside", found.charges_outside ? Json(*found.charges_outside) : Json()},
                      {"surface", distance_json(found)}};

@@ -1,5 +1,6 @@
 #include "compare_command.h"
 
+#include "exit_code.h"
 #include "output_options.h"
 #include "report_parts.h"
 #include "validators.h"
@@ -62,7 +63,7 @@ int run_compare(const CompareCommand& command) {
   const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);
   put_report(comparison_text(command, found), comparison_json(command, found), command.json);
-  return 0;
+  return kGood;
 }
 
 }  // namespace gaussmesh::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exit_code.h"
 #include "gaussmesh/error.h"
 #include "output_options.h"
 #include "report_parts.h"
@@ -63,7 +64,7 @@ int run_convert(const ConvertOptions& options) {
   OutputFiles files;
   for (const std::string& output : options.outputs) files.add_mesh(file.mesh, file.data, output, writing);
   files.commit();
-  return 0;
+  return kGood;
 }
 
 }  // namespace gaussmesh::app

@@ -13,6 +13,7 @@
 #include "compare_command.h"
 #include "config_file.h"
 #include "convert_command.h"
+#include "exit_code.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/version.h"
 #include "help_format.h"
@@ -30,9 +31,6 @@
 namespace {
 
 using namespace gaussmesh::app;
-
-/// Exit codes, by who can mend the error.
-enum ExitCode { kGood = 0, kInternal = 1, kWrongUse = 2, kInput = 3, kCannotMesh = 4 };
 
 constexpr const char* kFooter =
     "Examples:\n"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exit_code.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/measure_mesh.h"
@@ -97,7 +98,7 @@ int run_measure(const MeasureCommand& command) {
     found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false).atoms);
   if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);
   put_report(measured_text(found), measured_json(found), command.json);
-  return 0;
+  return kGood;
 }
 
 }  // namespace gaussmesh::app

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "exit_code.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/select_components.h"
 #include "memory_limit.h"
@@ -293,11 +294,11 @@ int run_mesh(const MeshCommand& command) {
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
   if (command.cavities == "separate") require_writable_files(command, product.report.check.components.size());
   const std::string first = write_all(command, product);
-  if (command.quiet) return 0;
+  if (command.quiet) return kGood;
   std::ostream& out = is_standard_output_taken(command) ? std::cerr : std::cout;
   out << first << ": " << report_summary(product.report);
   if (command.verbose) print_details(product.report, out);
-  return 0;
+  return kGood;
 }
 
 }  // namespace gaussmesh::app

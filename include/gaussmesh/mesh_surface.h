@@ -114,6 +114,9 @@ MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& optio
 /// The report as JSON; lengths in A and units spelt in the keys.
 std::string report_json(const MeshReport& report);
 
+/// Its part about the shapes of the triangles, an object, for reports on meshes from elsewhere.
+std::string quality_json(const MeshCheck& check);
+
 /// Three lines: what was made, the shapes of the triangles, and what was proved.
 std::string report_summary(const MeshReport& report);
 

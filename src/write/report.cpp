@@ -44,7 +44,7 @@ Json components_json(const MeshCheck& check) {
   return list;
 }
 
-Json quality_json(const MeshCheck& check) {
+Json quality_of(const MeshCheck& check) {
   return {{"min_angle_deg", check.min_angle_deg},
           {"max_angle_deg", check.max_angle_deg},
           {"mean_min_angle_deg", check.mean_min_angle_deg},
@@ -102,12 +102,14 @@ std::string report_json(const MeshReport& report) {
                {"proof", proof_json(report)},
                {"components", components_json(check)},
                {"left_out", {{"components", report.left_out.components}, {"volume_A3", report.left_out.volume}}},
-               {"quality", quality_json(check)},
+               {"quality", quality_of(check)},
                {"vertex_distance_max_A", report.vertex_distance_max},
                {"stages", stages}};
   if (report.surface_distance) json["surface_distance_A"] = *report.surface_distance;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files need not be UTF-8
 }
+
+std::string quality_json(const MeshCheck& check) { return quality_of(check).dump(); }
 
 std::string report_summary(const MeshReport& report) {
   const MeshCheck& check = report.check;
