@@ -14,12 +14,12 @@ class BrickWalker {
  public:
   /// What is known of a cell that is not excluded; the references live as long as the call.
   struct Cell {
-    FineIndex lo;
+    FineIndex lo{};
     const NearAtoms& atoms;  ///< collected for a box around the cell, with kTruncation
     const LazyModel& model;  ///< of the cell, with kProofTruncation
     CellCertificate certificate;
-    const BrickTables& tables;    ///< of the brick
-    std::array<int, 3> in_brick;  ///< i, j, k: where it is in the brick
+    const BrickTables& tables;      ///< of the brick
+    std::array<int, 3> in_brick{};  ///< i, j, k: where it is in the brick
   };
   using Visitor = std::function<void(const Cell&)>;
 

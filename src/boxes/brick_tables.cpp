@@ -205,7 +205,7 @@ unsigned BrickTables::directions(int i, int j, int k, unsigned extent) const {
 
 int BrickTables::steepest_axis(int i, int j, int k) const {
   const double* p = at(i, j, k);
-  constexpr int x = kStride[0], y = kStride[1], z = kStride[2];
+  const int x = kStride[0], y = kStride[1], z = kStride[2];
   const double diagonals[4] = {p[x + y + z] - p[0], p[x + y] - p[z], p[x + z] - p[y], p[x] - p[y + z]};
   const double slopes[3] = {std::abs(diagonals[0] + diagonals[1] + diagonals[2] + diagonals[3]),
                             std::abs(diagonals[0] + diagonals[1] - diagonals[2] - diagonals[3]),

@@ -45,7 +45,7 @@ inline bool segments_overlap(const PlanePoint& p, const PlanePoint& q, const Pla
 /// A side of a polygon whose corners have numbers.
 struct PolygonSide {
   PlanePoint p, q;
-  int from, to;
+  int from = 0, to = 0;
 };
 
 /// Whether a side is a point, or two of them have more in common than a corner in which one follows the other. Exact.

@@ -57,7 +57,7 @@ class PatchTriangulator {
  private:
   struct Corner {
     PlanePoint at;
-    int vertex;  ///< index into vertices_
+    int vertex = 0;  ///< index into vertices_
   };
   using Polygon = std::vector<Corner>;
 

@@ -86,7 +86,7 @@ class FaceTracer {
     int piece = 0;    ///< piece that leads to `next`, if there is one
   };
   struct Rect {
-    CoordPoint lo, hi;
+    CoordPoint lo{}, hi{};
   };
   struct Piece {
     Rect rect;
@@ -95,12 +95,12 @@ class FaceTracer {
     double last = 0.0;         ///< coordinate along it of the point found last (A): the next is near
   };
   struct RectRoot {
-    int point;          ///< index into points_
-    int boundary_side;  ///< as in FaceRoot, of the rectangle
+    int point = 0;          ///< index into points_
+    int boundary_side = 0;  ///< as in FaceRoot, of the rectangle
   };
   struct Chain {
-    int first;
-    bool closed;
+    int first = 0;
+    bool closed = false;
   };
 
   void trace_rect(const Rect& rect, FaceCertificate certificate, std::vector<RectRoot> roots);
