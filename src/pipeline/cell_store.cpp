@@ -101,15 +101,38 @@ FineIndex lowest_corner(const BrickIndex& brick, int local) {
   return lo;
 }
 
-}  // namespace
-
-CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
+/// The bricks that have cells, in order.
+std::vector<BuiltBrick> build_bricks(const GaussianField& field, const Lattice& lattice, int threads) {
   const std::vector<BrickIndex> found = find_bricks(field, lattice, threads);
   std::vector<BuiltBrick> all(found.size());
   parallel_for_workers(found.size(), threads, 1, [&] {
     return [&, builder = BrickBuilder(field, lattice)](std::size_t i) mutable { all[i] = builder.build(found[i]); };
   });
   std::erase_if(all, [](const BuiltBrick& built) { return built.cells.empty(); });
+  return all;
+}
+
+/// Writes the roots of one brick, from its first vertex on.
+void put_roots(const BuiltBrick& built, const Lattice& lattice, SurfacePoint* points, std::int8_t* rises) {
+  for (const SurfaceCell& cell : built.cells) {
+    const CoordPoint corner = lattice.point(lowest_corner(built.brick.index, cell.local));
+    std::uint32_t n = cell.first_root;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int j = 0; j < cell.root_count[axis]; ++j, ++n) {
+        const RootOnEdge& root = built.roots[n];
+        points[n].position = corner;
+        points[n].position[axis] = root.at;
+        points[n].normal = root.normal;
+        rises[n] = root.rise;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int threads) {
+  std::vector<BuiltBrick> all = build_bricks(field, lattice, threads);
   std::size_t vertices = 0;
   std::vector<std::size_t> first_cell{0};
   for (BuiltBrick& built : all) {
@@ -123,22 +146,9 @@ CellStore::CellStore(const GaussianField& field, const Lattice& lattice, int thr
   resize_in_parallel(rises_, vertices, threads);
   parallel_for(all.size(), threads, [&](std::size_t i) {
     Brick& brick = all[i].brick;
+    put_roots(all[i], lattice, roots_.data() + brick.first_vertex, rises_.data() + brick.first_vertex);
     brick.cells = {cells_.data() + first_cell[i], all[i].cells.size()};
     std::copy(all[i].cells.begin(), all[i].cells.end(), brick.cells.begin());
-    for (const SurfaceCell& cell : brick.cells) {
-      const CoordPoint corner = lattice.point(gaussmesh::lowest_corner(brick.index, cell.local));
-      std::uint32_t n = cell.first_root;
-      for (int axis = 0; axis < 3; ++axis) {
-        for (int j = 0; j < cell.root_count[axis]; ++j, ++n) {
-          const RootOnEdge& root = all[i].roots[n];
-          SurfacePoint& point = roots_[brick.first_vertex + n];
-          point.position = corner;
-          point.position[axis] = root.at;
-          point.normal = root.normal;
-          rises_[brick.first_vertex + n] = root.rise;
-        }
-      }
-    }
     all[i].roots = std::vector<RootOnEdge>();
     all[i].cells = std::vector<SurfaceCell>();
   });

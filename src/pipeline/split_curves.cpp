@@ -242,33 +242,38 @@ void SplitLattice::trace_faces(std::span<const SplitCell> cells, std::span<CellW
     return [&, tracer = FaceTracer(field_, lattice_), roots = std::vector<FaceRoot>()](std::size_t c) mutable {
       tracer.take_atoms_from(work[c].atoms);
       for (const Task& task : faces.tasks[c]) {
+        const LeafCell& leaf = cells[c].leaves[task.leaf];
         for (std::uint32_t i = task.first; i < task.last; ++i) {
           const LatticeKey& face = faces.keys[i];
-          const std::int64_t size = fine_size(face.level);
-          const FineIndex end = moved(moved(face.lo(), first_axis(face.axis), size), second_axis(face.axis), size);
-          const bool is_high = face.lo()[face.axis] != cells[c].leaves[task.leaf].key.lo[face.axis];
+          const bool is_high = face.lo()[face.axis] != leaf.key.lo[face.axis];
           collect_face_roots(face, work[c].free_edges[task.leaf], is_high, roots);
-          auto certificate = static_cast<FaceCertificate>(faces.known[i]);
-          if (certificate == kFaceUncertified) {
-            certificate = certify_face(work[c].models[task.leaf], face.axis, lattice_box(lattice_, face.lo(), end));
-          }
-          tracer.set_plain(face.level <= kLastPlainLevel);
-          curves[i] = tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificate, roots,
-                                   fold_axes(face));
+          const auto known = static_cast<FaceCertificate>(faces.known[i]);
+          curves[i] = trace_face(face, known, work[c].models[task.leaf], roots, tracer);
         }
       }
     };
   });
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const FaceCurves& found = curves[i];
-    if (found.links.empty()) continue;
-    faces_.insert(faces.keys[i]);
-    const VertexRange inside = vertices_.add(found.points);
-    face_links_.push_back(
-        {static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(found.links.size()), inside});
-    const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? inside.first + (v - kLocalVertex) : v; };
-    for (const Link& link : found.links) links_.push_back({numbered(link.from), numbered(link.to)});
-  }
+  for (std::size_t i = 0; i < curves.size(); ++i) keep_curves(faces.keys[i], curves[i]);
+}
+
+const FaceCurves& SplitLattice::trace_face(const LatticeKey& face, FaceCertificate known, const LocalModel& model,
+                                           std::span<const FaceRoot> roots, FaceTracer& tracer) const {
+  const std::int64_t size = fine_size(face.level);
+  const FineIndex end = moved(moved(face.lo(), first_axis(face.axis), size), second_axis(face.axis), size);
+  const FaceCertificate certificate =
+      known != kFaceUncertified ? known : certify_face(model, face.axis, lattice_box(lattice_, face.lo(), end));
+  tracer.set_plain(face.level <= kLastPlainLevel);
+  return tracer.trace(face.axis, lattice_.point(face.lo()), lattice_.point(end), certificate, roots, fold_axes(face));
+}
+
+void SplitLattice::keep_curves(const LatticeKey& face, const FaceCurves& curves) {
+  if (curves.links.empty()) return;
+  faces_.insert(face);
+  const VertexRange inside = vertices_.add(curves.points);
+  face_links_.push_back(
+      {static_cast<std::uint32_t>(links_.size()), static_cast<std::uint32_t>(curves.links.size()), inside});
+  const auto numbered = [&](std::uint32_t v) { return v >= kLocalVertex ? inside.first + (v - kLocalVertex) : v; };
+  for (const Link& link : curves.links) links_.push_back({numbered(link.from), numbered(link.to)});
 }
 
 std::span<const Link> SplitLattice::face_links(int axis, const FineIndex& lo, int level) const {

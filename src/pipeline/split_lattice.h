@@ -176,6 +176,10 @@ class SplitLattice {
   static bool look_closer(LeafCell& leaf, const LocalModel& model, CellWork& work);
   void find_edge_roots(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
   void trace_faces(std::span<const SplitCell> cells, std::span<CellWork> work, int threads);
+  /// @param known  from the cells on both sides; where that is not enough `model` tells, which is of one of them
+  const FaceCurves& trace_face(const LatticeKey& face, FaceCertificate known, const LocalModel& model,
+                               std::span<const FaceRoot> roots, FaceTracer& tracer) const;
+  void keep_curves(const LatticeKey& face, const FaceCurves& curves);
   LatticeKey whole_edge(int axis, const FineIndex& lo) const;
   void add_roots_on(int axis, const FineIndex& lo, int level, int side, std::vector<FaceRoot>& roots) const;
   /// @param free_edges  of the leaf that the face is of, as in CellWork
