@@ -12,9 +12,9 @@
 #include "core/parallel.h"
 #include "field/gaussian_field.h"
 #include "gaussmesh/error.h"
-#include "gaussmesh/read_atoms.h"
 #include "gaussmesh/two_sided_distance.h"
-#include "pipeline/critical_point.h"
+#include "pipeline/check_options.h"
+#include "pipeline/critical_places.h"
 #include "pipeline/trace_surface.h"
 
 namespace gaussmesh {
@@ -53,38 +53,6 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-void check_range(const char* name, double value, double lo, double hi, const char* unit) {
-  if (value >= lo && value <= hi) return;
-  throw OptionError(std::string(name) + ": expected a number from " + number_text(lo) + " to " + number_text(hi) +
-                    unit + ", got '" + number_text(value) + "'");
-}
-
-void check_options(const std::vector<Atom>& atoms, const MeshOptions& options) {
-  check_range("decay", options.decay, 1e-3, 1e3, " (1/A^2)");
-  check_range("isovalue", options.isovalue, 1e-9, 1e9, "");
-  check_range("spacing", options.spacing, 0.01, 1000.0, " (A)");
-  check_range("tolerance", options.tolerance, 0.0, 1000.0, " (A)");
-  check_range("threads", options.threads, 0, 4096, "");
-  if (!options.improve && options.tolerance > 0.0) {
-    throw OptionError("tolerance: expected 0 where the mesh is to stay as traced, got '" +
-                      number_text(options.tolerance) + "'");
-  }
-  if (options.improve && options.spacing > kLargestSpacing) {
-    throw OptionError("spacing: expected at most " + number_text(kLargestSpacing) +
-                      " A unless the mesh is to stay as traced, got '" + number_text(options.spacing) + "'");
-  }
-  if (atoms.empty()) throw InputError("no atoms: expected at least one");
-  for (const Atom& a : atoms) {
-    bool is_good = a.radius >= 0.0 && a.radius <= kLargestRadius;
-    for (const double x : {a.x, a.y, a.z}) is_good = is_good && std::abs(x) <= kLargestCoordinate;
-    if (!is_good) {
-      throw InputError("an atom: expected coordinates within 1e6 A and a radius from 0 to 1e5 A, got (" +
-                       number_text(a.x) + ", " + number_text(a.y) + ", " + number_text(a.z) + "), " +
-                       number_text(a.radius));
-    }
-  }
-}
-
 void describe_trace(const TraceResult& trace, MeshReport& report) {
   report.boxes.clear();  // of an attempt before
   for (std::size_t i = 0; i < trace.boxes_by_level.size(); ++i) {
@@ -96,58 +64,23 @@ void describe_trace(const TraceResult& trace, MeshReport& report) {
   report.cells_cut_by_folds = trace.cells_cut_by_folds;
 }
 
-/// Critical points with values near c at the places where the proof gave up; several places have one point in common.
-std::vector<CriticalPlace> critical_places(const GaussianField& field, const TraceResult& trace, double isovalue) {
-  constexpr double kSamePoint = 1e-3;     // A
-  constexpr double kNearCritical = 1e-3;  // |log(phi / c)|; where it is more, the cells are too coarse for the surface
-  std::vector<CriticalPlace> places;
-  for (const UncertifiedPlace& place : trace.uncertified) {
-    const CriticalPoint critical = find_critical_point(field, place.place);
-    if (!critical.converged || !(std::abs(std::log(critical.relative_value)) < kNearCritical)) continue;
-    const bool known = std::any_of(places.begin(), places.end(), [&](const CriticalPlace& other) {
-      double distance = 0.0;
-      for (int k = 0; k < 3; ++k) distance = std::max(distance, std::abs(other.point[k] - critical.point[k]));
-      return distance < kSamePoint;
-    });
-    if (!known) places.push_back({critical.point, critical.relative_value * isovalue});
-  }
-  return places;
-}
-
-std::string place_text(const Vec3& place) {
-  const auto coordinate = [&](int k) { return number_text(std::round(place[k] * 1e6) / 1e6 + 0.0, 13); };
-  return "(" + coordinate(0) + ", " + coordinate(1) + ", " + coordinate(2) + ")";
-}
-
-/// Where the proof gave up, and not because of the level.
-std::string coarse_message(const std::vector<UncertifiedPlace>& places) {
-  std::string message = "the surface is finer than the smallest parts of cells, of " +
-                        number_text(places.front().size, 3) + " A, at " + place_text(places.front().place);
-  if (places.size() > 1) message += " and " + std::to_string(places.size() - 1) + " more places";
-  return message + ". No proof of topology is possible there; choose a smaller spacing.";
-}
-
-std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue) {
-  const CriticalPlace& first = places.front();
-  std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at " +
-                        place_text(first.point) + " the surface is singular at c = " + number_text(first.value, 15) +
-                        ", " + number_text(std::abs(isovalue - first.value), 3) + " away";
-  if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
-  return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
-}
+/// A level that was traced in place of the one asked for.
+struct TracedBeside {
+  TraceResult trace;
+  double isovalue = 0.0;
+};
 
 /// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
-TraceResult trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch,
-                         double& isovalue_used) {
+TracedBeside trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch) {
   const TraceDemands demands{options.spacing, options.improve};
   for (double change = 1e-9; change < 1e-2; change *= 4.0) {
     for (const double sign : {-1.0, 1.0}) {
-      isovalue_used = options.isovalue * (1.0 + sign * change);
-      const GaussianField field(atoms, options.decay, isovalue_used);
+      const double isovalue = options.isovalue * (1.0 + sign * change);
+      const GaussianField field(atoms, options.decay, isovalue);
       try {
         TraceResult trace =
             trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
-        if (trace.uncertified.empty() && !trace.surface.mesh.triangles.empty()) return trace;
+        if (trace.uncertified.empty() && !trace.surface.mesh.triangles.empty()) return {std::move(trace), isovalue};
       } catch (const LatticeDegenerate&) {
         continue;  // no lattice fits this level; the next one may do
       }
@@ -238,10 +171,12 @@ class SurfaceMesher {
     TraceResult trace = trace_at_level();
     report.certified = trace.uncertified.empty();
     if (!report.certified) {
-      report.critical = critical_places(field_, trace, options_.isovalue);
+      report.critical = critical_places(field_, trace.uncertified, options_.isovalue);
       if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
       if (!options_.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options_.isovalue));
-      trace = trace_beside(atoms_, options_, threads_, watch_, report.isovalue_used);
+      TracedBeside beside = trace_beside(atoms_, options_, threads_, watch_);
+      trace = std::move(beside.trace);
+      report.isovalue_used = beside.isovalue;
     }
     give_back_memory();  // cells, roots and curves, most of what there is up to here
     describe_trace(trace, report);
