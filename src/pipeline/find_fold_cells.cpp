@@ -24,6 +24,7 @@ bool goes_round_surface(const LeafCell& leaf, const Loop& loop) {
   return leaf.direction.sign < 0 ? area > 0.0 : area < 0.0;
 }
 
+/// Looks for the largest cells that can keep their size, in a lattice that is split until all cells have certificates.
 class FoldSearch {
  public:
   FoldSearch(const Lattice& lattice, const CellStore& store, const SplitLattice& split, const TracedVertices& vertices)
