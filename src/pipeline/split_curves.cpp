@@ -66,9 +66,9 @@ SplitLattice::Wanted SplitLattice::list_wanted(std::span<const SplitCell> cells,
                                                const Visit& visit) {
   struct Asked {
     LatticeKey key;
-    std::uint32_t leaf;  ///< that asked for it first
-    bool is_found;
-    std::uint8_t known;
+    std::uint32_t leaf = 0;  ///< that asked for it first
+    bool is_found = false;
+    std::uint8_t known = 0;
   };
   std::vector<std::vector<Asked>> by_cell(cells.size());
   parallel_for_workers(cells.size(), threads, kTasksAtOnce, [&] {
