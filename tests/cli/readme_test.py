@@ -4,6 +4,7 @@
     tests/cli/readme_test.py --program build/bin/gaussmesh --data data [CLASS...]
 """
 
+import gzip
 import json
 import os
 import pathlib
@@ -82,7 +83,7 @@ class Batch(CliTest):
     def test_goes_on_past_failures_and_takes_up_where_it_stopped(self):
         good = [self.molecule(name) for name in ("methanol", "dmso")]
         self.write("bad.pqr", "ATOM 1 C X 1 0 0 0 0 x\n")
-        self.write("list.txt", "\n".join(map(str, [*good, "bad.pqr", "none.pqr", ""])))
+        self.write("list.txt", "\n".join(map(str, [*good, " # two that fail", "bad.pqr", "none.pqr", ""])))
         first = self.batch("--list", "list.txt", "--output", "out", "--jobs", 2)
         self.assertEqual(first.returncode, 1, first.stderr)
         rows = (self.folder / "out" / "table.csv").read_text().splitlines()
@@ -127,6 +128,48 @@ class Batch(CliTest):
         self.write("none.pdb", "ATOM      1  N   XXX A   1       0.000   0.000   0.000  1.00 10.00           N\n")
         self.batch("none.pdb", "--output", "out", "--pdb2pqr", "/usr/bin/pdb2pqr")
         self.assertRegex((self.folder / "out" / "failures.tsv").read_text(), "pdb2pqr: exit 1: .*heavy atoms")
+
+    def test_radii_of_structures(self):
+        """From pdb2pqr, gzipped or not, from a set, or from a file, beside files that have radii of their own."""
+        text = pdb_text(self.molecule("1l2y"))
+        self.write("a.pdb", text)
+        self.write("b.pdb.gz", gzip.compress(text.encode()))
+        self.write("cut.pdb.gz", gzip.compress(text.encode())[:-9])
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        self.write("my.radii", "C 1.7\nN 1.55\nO 1.52\n")
+        rest = ["--output", "out", "--", "--raw", "--spacing", 2]
+        made = self.batch("a.pdb", "b.pdb.gz", "cut.pdb.gz", "m.pqr", "--pdb2pqr", "/usr/bin/pdb2pqr", *rest)
+        self.assertEqual(made.returncode, 1, made.stderr)
+        out = self.folder / "out"
+        self.assertRegex((out / "failures.tsv").read_text(), "^cut.pdb.gz\tcut.pdb.gz: Compressed file ended before.*\n$")
+        with_hydrogens = (out / "a.off").read_text()
+        self.assertEqual((out / "b.off").read_text(), with_hydrogens)
+        made = self.batch("a.pdb", "m.pqr", "--radii-file", "my.radii", *rest)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        by_file = (out / "a.off").read_text()
+        self.assertNotEqual(by_file, with_hydrogens)
+        self.write("my.radii", "O 2.52\n")
+        self.assertEqual(self.batch("a.pdb", "--radii", "bondi", "--radii-file", "my.radii", *rest).returncode, 0)
+        by_both = (out / "a.off").read_text()
+        self.assertNotEqual(by_both, by_file)
+        self.write("my.radii", "O 2.51\n")
+        later = (out / "a.json").stat().st_mtime + 1
+        os.utime(self.folder / "my.radii", (later, later))
+        self.batch("a.pdb", "--radii", "bondi", "--radii-file", "my.radii", *rest)
+        self.assertNotEqual((out / "a.off").read_text(), by_both, "the file of radii has changed")
+
+    def test_what_is_wrong_for_all_is_told_once(self):
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        for arguments, said in [(["m.pqr", "--", "-o", "x.off"], "expected --extension before --, got '-o'"),
+                                (["m.pqr", "--", "-ox.off"], "expected --extension before --, got '-ox.off'"),
+                                (["m.pqr", "--", "--radii=bondi"], "expected --radii before --, got '--radii=bondi'"),
+                                (["m.pqr", "--radii-file", "none"], "--radii-file: expected a file, got 'none'"),
+                                (["m.pdb", "--pdb2pqr", "none"], "expected a program to run, got 'none'"),
+                                (["m.pqr", "--timeout", "-1"], "--timeout: more than 0")]:
+            result = self.batch("--output", "out", *arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(said, result.stderr)
+        self.assertEqual(self.files(), ["m.pqr"])
 
     def test_an_extension_without_its_dot(self):
         shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
