@@ -4,11 +4,11 @@
     scripts/benchmark.py data/fas2.pqr ache.pqr --program build/release/bin/gaussmesh --output tests/bench/results \\
         --reference ./other_mesher --reference-name "what it is"
 
-Every molecule is meshed at every spacing as traced (--raw) and by default, on one thread and on two, and by the reference
-program where there is one: any that is called `PROGRAM IN.pqr OUT.off -s SPACING -d D -c C` and uses one thread. Runs
-take turns, so that what else the machine does meets all alike. CPU time is user and system time of the whole process,
-reading and writing included; ratios and speed-ups are taken within each turn, and the median over the turns is given.
-Peak memory is the largest resident set, of one more run on one thread.
+Every molecule is meshed at every spacing as traced (--raw) and by default, on one thread and on two, and by the
+reference program where there is one: any that is called `PROGRAM IN.pqr OUT.off -s SPACING -d D -c C` and uses one
+thread. Runs take turns, so that what else the machine does meets all alike. CPU time is user and system time of the
+whole process, reading and writing included; ratios and speed-ups are taken within each turn, and the median over the
+turns is given. Peak memory is the largest resident set, of one more run on one thread.
 
 The output folder gets benchmark.tsv, benchmark.md and, where Matplotlib is there, benchmark.svg; they grow with each
 molecule and spacing that is done.
@@ -51,8 +51,8 @@ def run(command, threads):
 
 
 def peak_memory(command):
-    """Largest resident set (bytes), asked for while the program runs: what is told of a process that has ended counts this
-    script as well, which it was before it became the program."""
+    """Largest resident set (bytes), asked for while the program runs: what is told of a process that has ended counts
+    this script as well, which it was before it became the program."""
     peak = 0
     with subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL) as process:

@@ -32,7 +32,8 @@ class Benchmark(CliTest):
         result = self.measure(self.molecule("methanol"))
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = self.rows()
-        self.assertEqual([(row["molecule"], row["mesh"]) for row in rows], [("methanol", "raw"), ("methanol", "default")])
+        self.assertEqual([(row["molecule"], row["mesh"]) for row in rows],
+                         [("methanol", "raw"), ("methanol", "default")])
         self.expect(0, self.molecule("methanol"), "--spacing", 1.2, "--raw", "-o", self.mesh)
         triangles = int(self.mesh.read_text().split()[2])
         self.assertEqual(int(rows[0]["triangles"]), triangles)

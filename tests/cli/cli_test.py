@@ -125,11 +125,13 @@ class Structures(CliTest):
                   for radii in (["--radii", "bondi"], ["--radii-file", "my.radii"])]
         self.assertEqual(*meshes)
         self.write("my.radii", "H 0.5\n")
-        both = self.expect(0, "ubq.pdb", "--radii", "bondi", "--radii-file", "my.radii", "--raw", "--spacing", 2, "-o", "-")
+        both = self.expect(0, "ubq.pdb", "--radii", "bondi", "--radii-file", "my.radii", "--raw", "--spacing", 2,
+                           "-o", "-")
         self.assertNotEqual(both.stdout, meshes[0])
-        self.assertIn("'my.radii' know", self.expect(BAD_INPUT, "ubq.pdb", "--radii-file", "my.radii", "-o", "-").stderr)
+        alone = ["ubq.pdb", "--radii-file", "my.radii", "-o", "-"]
+        self.assertIn("'my.radii' know", self.expect(BAD_INPUT, *alone).stderr)
         self.write("my.radii", "H\n")
-        self.assertIn("my.radii:1: expected", self.expect(BAD_INPUT, "ubq.pdb", "--radii-file", "my.radii", "-o", "-").stderr)
+        self.assertIn("my.radii:1: expected", self.expect(BAD_INPUT, *alone).stderr)
 
 
 class BadInput(CliTest):
@@ -207,13 +209,17 @@ class WrongUse(CliTest):
         self.assertLess(max(map(len, result.stderr.splitlines())), 200)
 
     def test_options_that_are_wrong_together_are_named(self):
-        for options, said in [(["--spacing", 300], "--spacing: expected a number from 0.01 to 200 without --raw, got '300'"),
-                              (["--density", 1e-5], "--density: expected a number from 3e-05 to 10000 without --raw, got '1e-05'"),
+        for options, said in [(["--spacing", 300],
+                               "--spacing: expected a number from 0.01 to 200 without --raw, got '300'"),
+                              (["--density", 1e-5],
+                               "--density: expected a number from 3e-05 to 10000 without --raw, got '1e-05'"),
                               (["--min-cavity-volume", -1], "--min-cavity-volume: expected a number >= 0, got '-1'"),
                               (["--d", 0.5, "--d", 0.6], "--d: expected once, got 2 values: '0.5', '0.6'"),
-                              (["--spacings", 0.5], "expected an option of gaussmesh, got '--spacings'; did you mean '--spacing'?"),
-                              (["--format", "mmcif"], "--format: expected off, msms, ply, ply-ascii, obj, stl, gmsh22, gmsh41, "
-                                                      "smesh, vtp, got 'mmcif'\n")]:
+                              (["--spacings", 0.5],
+                               "expected an option of gaussmesh, got '--spacings'; did you mean '--spacing'?"),
+                              (["--format", "mmcif"],
+                               "--format: expected off, msms, ply, ply-ascii, obj, stl, gmsh22, gmsh41, smesh, vtp, "
+                               "got 'mmcif'\n")]:
             error = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, *options).stderr
             self.assertEqual(error[:len(said) + 11], "gaussmesh: " + said)
         for option in [["--spacing", 300], ["--density", 1e-5]]:
@@ -362,7 +368,8 @@ class Surfaces(CliTest):
                 self.assertAlmostEqual(dropped["left_out"]["volume_A3"], cavity - ball, places=6)
                 self.assertAlmostEqual(dropped["volume_A3"], kept["components"][0]["volume_A3"], places=6)
                 self.expect(0, "check", self.mesh)
-        self.assertEqual(self.kinds(self.report(shell, "--spacing", 1, "--min-cavity-volume", cavity - 1)), self.kinds(kept))
+        same = self.report(shell, "--spacing", 1, "--min-cavity-volume", cavity - 1)
+        self.assertEqual(self.kinds(same), self.kinds(kept))
 
     def test_separate_surfaces(self):
         kept = self.report(self.shell(), "--spacing", 1)
@@ -375,7 +382,8 @@ class Surfaces(CliTest):
             self.run_program("check", f"out_{i}.off", "--json", "c.json")
             volumes.append(json.loads((self.folder / "c.json").read_text())["volume_A3"])
         self.assertEqual([c["parent"] for c in kept["components"]], [None, 0, 1])
-        said = self.expect(0, "shell.pqr", "--spacing", 1, "--cavities", "separate", "-o", self.mesh, "--report", "s.json")
+        said = self.expect(0, "shell.pqr", "--spacing", 1, "--cavities", "separate", "-o", self.mesh,
+                           "--report", "s.json")
         self.assertRegex(said.stdout, "out_1.off to .*out_3.off: ")
         report = json.loads((self.folder / "s.json").read_text())
         self.assertEqual(self.kinds(report), ["outside", "outside", "cavity"])
@@ -406,7 +414,8 @@ class Running(CliTest):
                                   env={**environment, **said}, stdout=subprocess.DEVNULL) as process:
                 until = time.monotonic() + 60
                 while time.monotonic() < until:
-                    found = re.search(rb"OMP_WAIT_POLICY=(\w+)", pathlib.Path(f"/proc/{process.pid}/environ").read_bytes())
+                    has = pathlib.Path(f"/proc/{process.pid}/environ").read_bytes()
+                    found = re.search(rb"OMP_WAIT_POLICY=(\w+)", has)
                     if found:
                         break
                 name = pathlib.Path(f"/proc/{process.pid}/comm").read_text(encoding="utf-8").strip()
@@ -458,11 +467,13 @@ class Running(CliTest):
 
     def test_the_configuration_file_is_named_with_its_line(self):
         molecule = self.molecule("methanol")
-        for text, said in [("# no option\n\nspacing = 0\n", "3: --spacing: expected a number from 0.01 to 1000, got '0'"),
+        for text, said in [("# no option\n\nspacing = 0\n",
+                            "3: --spacing: expected a number from 0.01 to 1000, got '0'"),
                            ('preset = "vdv"\n', "1: --preset: expected ses-volume"),
                            ("c = 1.2\nthreads = 1.5\n", "2: Could not convert: --threads = 1.5"),
                            ("quiet = maybe\n", "1: "),
-                           ('decay = 0.5\nc = 1\npreset = "vdw"\n', "[13]: --(d excludes --preset|preset excludes --d)"),
+                           ('decay = 0.5\nc = 1\npreset = "vdw"\n',
+                            "[13]: --(d excludes --preset|preset excludes --d)"),
                            ("d = 0.5\nc = 1\ndecay = 0.6\n", "3: expected each option once, got 'decay' again"),
                            ("d = 0.5\nc = 1\nd = 0.6\n", "3: expected each option once, got 'd' again"),
                            ("c = 1\n[foo]\nbar = 1\n", r"2: expected options without sections, got '\[foo\]'"),
@@ -581,7 +592,7 @@ class Running(CliTest):
                                                 stderr=subprocess.DEVNULL, check=False).returncode, BAD_INPUT)
 
     def test_a_signal_while_writing(self):
-        """A pipe that nobody reads holds the program in the middle of its second output; the first is still temporary."""
+        """A pipe that nobody reads holds the program in the middle of its second output; the first is temporary."""
         for name in ["SIGINT", "SIGTERM", "SIGHUP"]:
             with self.subTest(name):
                 self.mesh.write_text("an older mesh\n")
@@ -685,7 +696,8 @@ class Check(CliTest):
         said = self.expect(CHECK_FAILED, "check", self.off(["3 0 1 7"], self.VERTICES[:3])).stdout
         self.assertIn("3 vertices, 1 triangle\n", said)
         self.assertIn("FAILED: 1 triangle that names a missing vertex; 3 vertices in no triangle", said)
-        said = self.expect(CHECK_FAILED, "check", self.off(self.FACES, [*self.VERTICES, "9 9 9"]), "--min-separation", 1.3)
+        said = self.expect(CHECK_FAILED, "check", self.off(self.FACES, [*self.VERTICES, "9 9 9"]),
+                           "--min-separation", 1.3)
         self.assertIn("FAILED: 1 vertex in no triangle; 3 pairs of vertices too near to each other", said.stdout)
         self.assertIn("3 pairs, 3 of them joined", said.stdout)
 

@@ -163,15 +163,16 @@ class TetGen(FormatTest):
 
     def test_fills_the_solid_and_not_the_cavity(self):
         volume, regions = self.tetrahedra("m.smesh")
-        self.assertAlmostEqual(volume / signed_volume(self.points, self.triangles), 1.0, delta=1e-5)  # TetGen merges facets that are nearly coplanar
+        # TetGen merges facets that are nearly coplanar.
+        self.assertAlmostEqual(volume / signed_volume(self.points, self.triangles), 1.0, delta=1e-5)
         self.assertEqual(regions, {1})
 
     def test_takes_the_triangles_as_they_are_for_a_mesh_of_good_shape(self):
         for name in ["1a1p", "1bna"]:
             with self.subTest(name):
                 self.expect(0, self.molecule(name), "-o", f"{name}.off")
-                run = subprocess.run(["tetgen", "-pq1.4/0", f"{name}.off"], cwd=self.folder, capture_output=True, text=True,
-                                     timeout=280)
+                run = subprocess.run(["tetgen", "-pq1.4/0", f"{name}.off"], cwd=self.folder, capture_output=True,
+                                     text=True, timeout=280)
                 self.assertEqual(run.returncode, 0)
                 self.assertNotRegex(run.stdout + run.stderr, "(?i)error|warning|intersect|degenerate|skipped")
                 points, triangles = read_off(self.folder / f"{name}.off")
@@ -192,7 +193,8 @@ class TetGen(FormatTest):
         self.assertEqual(lines[-4].split()[0], "3", "solids: the shell, and two balls")
         self.assertEqual(lines[-6].split()[0], "1", "cavities: one")
         volume, regions = self.tetrahedra("shell.smesh")
-        self.assertAlmostEqual(volume / signed_volume(*read_off(self.folder / "shell.off")), 1.0, delta=1e-5)  # TetGen merges facets that are nearly coplanar
+        # TetGen merges facets that are nearly coplanar.
+        self.assertAlmostEqual(volume / signed_volume(*read_off(self.folder / "shell.off")), 1.0, delta=1e-5)
         self.assertEqual(len(regions), 3)
 
     def test_reads_off(self):
