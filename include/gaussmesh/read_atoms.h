@@ -114,7 +114,9 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
 /// model is taken, which ends at ENDMDL, END or the next MODEL, of each residue the alternate location that comes
 /// first, and no water (HOH, WAT, TIP3, SOL, ...); warnings count what is left out. Hydrogens are taken if they are
-/// there; none are added. Charges are 0. Radii come from a file, as ReadOptions has it, or from a set:
+/// there; none are added. Charges are 0. Behind END there may be other frames of the same atoms; what has other atoms
+/// was joined from several files, and is refused. A warning counts lines that are no records of PDB. Radii come from a
+/// file, as ReadOptions has it, or from a set:
 ///
 /// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
 ///   Bondi, J. Phys. Chem. 68:441 (1964)
@@ -127,14 +129,14 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 ///
 /// @throws OptionError  if there is no such set
 /// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, the set has
-///                      no radius for an atom, or there is none
+///                      no radius for an atom, or there is none; on atoms behind END that are not before it; on mmCIF
+///                      and XML
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
                    const std::filesystem::path& radii_file = {});
 
-/// Reads mmCIF text that is already in memory: the loop _atom_site of its first block, as parse_pdb does. Where it
-/// has no label_atom_id or label_comp_id, the tags of the authors (auth_...) are read instead.
+/// Reads mmCIF text that is already in memory: its loop _atom_site, as parse_pdb does. Where that has no label_atom_id or label_comp_id, the tags of the authors (auth_...) are read instead.
 ///
-/// @throws InputError  as parse_pdb does, and if the text is no CIF or a column is missing
+/// @throws InputError  as parse_pdb does, and if the text is no CIF, a column is missing, or several blocks have atoms
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
                      const std::filesystem::path& radii_file = {});
 

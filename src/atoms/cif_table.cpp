@@ -32,6 +32,34 @@ std::optional<std::size_t> find_line(const cif::Block& block, const std::string&
   return std::nullopt;
 }
 
+/// _atom_site, of `_atom_site.`
+std::string loop_of(const std::string& prefix) { return prefix.substr(0, prefix.find('.')); }
+
+/// A block, and the line where the tags that were asked for are.
+struct Found {
+  cif::Block* block = nullptr;
+  std::size_t line = 0;
+};
+
+/// The block whose tags begin with `prefix`.
+///
+/// @throws InputError if there is none, or more than one, as in files that were joined
+Found find_block(cif::Document& document, const std::string& prefix, const std::string& file) {
+  Found found;
+  for (cif::Block& block : document.blocks) {
+    const auto line = find_line(block, prefix);
+    if (!line) continue;
+    if (found.block != nullptr) {
+      throw InputError(file + ":" + std::to_string(*line) + ": expected one loop " + loop_of(prefix) + ", in line " +
+                       std::to_string(found.line) + ", got another in block '" + block.name +
+                       "'; make a file of each block");
+    }
+    found = {&block, *line};
+  }
+  if (found.block == nullptr) throw InputError(file + ": expected a loop " + loop_of(prefix) + ", got none");
+  return found;
+}
+
 /// The tag that `column` has in `block`, behind a `?` if it may be missing, as gemmi wants it.
 std::string choose_tag(const cif::Block& block, const std::string& prefix, const CifColumn& column,
                        const std::string& where) {
@@ -49,15 +77,14 @@ CifTable read_cif_table(std::string_view text, std::string_view name, const std:
                         const std::vector<CifColumn>& columns) {
   const std::string file(name);
   cif::Document document = read_document(text, file);
-  const std::string loop = prefix.substr(0, prefix.find('.'));
-  const auto line = document.blocks.empty() ? std::nullopt : find_line(document.blocks.front(), prefix);
-  if (!line) throw InputError(file + ": expected a loop " + loop + ", got none");
-  cif::Block& block = document.blocks.front();
-  const std::string where = file + ":" + std::to_string(*line);
+  const auto [found, line] = find_block(document, prefix, file);
+  cif::Block& block = *found;
+  const std::string where = file + ":" + std::to_string(line);
   std::vector<std::string> tags;
   for (const CifColumn& column : columns) tags.push_back(choose_tag(block, prefix, column, where));
   cif::Table table = block.find(prefix, tags);
-  if (!table.ok()) throw InputError(where + ": expected all columns of " + loop + " in one loop, got several");
+  if (!table.ok())
+    throw InputError(where + ": expected all columns of " + loop_of(prefix) + " in one loop, got several");
   CifTable result;
   for (cif::Table::Row row : table) {
     std::vector<std::string> values(tags.size());

@@ -21,9 +21,11 @@ struct CifTable {
   std::vector<std::vector<std::string>> rows;  ///< without quotes; `.` and `?` are empty
 };
 
-/// Finds the loop of the first block whose tags begin with `prefix`, and in it the columns, which are optional or not.
+/// Finds the loop whose tags begin with `prefix`, in whichever block it is, and in it the columns, which are optional
+/// or not.
 ///
-/// @throws InputError if the text is no CIF, there is no such loop, or a required column is missing, and names the line
+/// @throws InputError if the text is no CIF, there is no such loop or more than one, or a required column is missing,
+///                    and names the line
 CifTable read_cif_table(std::string_view text, std::string_view name, const std::string& prefix,
                         const std::vector<CifColumn>& columns);
 

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "atoms/pdb_element.h"
 #include "atoms/pqr_record.h"
 #include "atoms/structure_builder.h"
+#include "atoms/unknown_lines.h"
 #include "gaussmesh/error.h"
 #include "text/text_lines.h"
 
@@ -95,47 +99,108 @@ std::string element(std::string_view record) {
   return record.size() < 16 ? std::string{} : element_of_name(record.substr(12, 4), columns(record, 18, 20));
 }
 
-void read_atom(std::string_view line, const LinePlace& place, StructureBuilder& builder) {
-  const std::string_view record = align_record(line, place);
-  const auto [x, y, z] = coordinates(record, place);
-  builder.add({.where = to_string(place),
-               .line = place.line,
-               .name = columns(record, 13, 16),
-               .residue = columns(record, 18, 20),
-               .element = element(record),
-               .element_place = "columns 77-78",
-               .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
-               .alternate = columns(record, 17, 17),
-               .model = {},
-               .x = x,
-               .y = y,
-               .z = z});
-}
+/// The atoms of the first frame by their names: what stands behind END is another frame if it has the same ones.
+class FrameAtoms {
+ public:
+  /// `record` must outlive this.
+  void add(std::string_view record) { names_.push_back(name_of(record)); }
+
+  /// Whether the atom of `record` was added. Nothing is added after the first call.
+  bool has(std::string_view record) {
+    if (!is_sorted_) std::sort(names_.begin(), names_.end());
+    is_sorted_ = true;
+    return std::binary_search(names_.begin(), names_.end(), name_of(record));
+  }
+
+ private:
+  /// Columns 13-27: atom, alternate location, residue, chain, number and insertion code.
+  static std::string_view name_of(std::string_view record) { return record.substr(12, 15); }
+
+  std::vector<std::string_view> names_;
+  bool is_sorted_ = false;
+};
+
+/// Reads one text; made anew for each.
+class PdbParser {
+ public:
+  PdbParser(std::string_view text, std::string_view name, AtomRadii radii)
+      : name_(name), lines_(text), builder_(name, std::move(radii)) {}
+
+  AtomFile parse() {
+    while (const auto line = lines_.next()) read_line(*line);
+    AtomFile file = builder_.finish();
+    unknown_lines_.warn(name_, file);
+    return file;
+  }
+
+ private:
+  LinePlace place() const { return {name_, lines_.number()}; }
+
+  void read_line(std::string_view line) {
+    switch (kind_of(line, place())) {
+      case RecordKind::kAtom:
+        read_atom(line);
+        break;
+      case RecordKind::kEnd:
+        if (has_atoms_ && !end_line_) end_line_ = lines_.number();
+        [[fallthrough]];
+      case RecordKind::kModel:
+      case RecordKind::kEndOfModel:
+        // Numbers do not tell models apart: frames may all have the same, or none.
+        builder_.end_model(lines_.number());
+        break;
+      case RecordKind::kUnknown:
+        unknown_lines_.add(trim(line), "PDB records", place());
+        break;
+      case RecordKind::kPassedOver:
+        break;
+    }
+  }
+
+  void read_atom(std::string_view line) {
+    const std::string_view record = align_record(line, place());
+    const auto [x, y, z] = coordinates(record, place());
+    require_frame(line, record);
+    builder_.add({.where = to_string(place()),
+                  .line = lines_.number(),
+                  .name = columns(record, 13, 16),
+                  .residue = columns(record, 18, 20),
+                  .element = element(record),
+                  .element_place = "columns 77-78",
+                  .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
+                  .alternate = columns(record, 17, 17),
+                  .model = {},
+                  .x = x,
+                  .y = y,
+                  .z = z});
+  }
+
+  /// Trajectories have their frames behind END, and so do files that were joined as they are: the other molecule would
+  /// be lost with the frames.
+  void require_frame(std::string_view line, std::string_view record) {
+    has_atoms_ = true;
+    if (!end_line_) {
+      frame_atoms_.add(record);
+    } else if (!frame_atoms_.has(record)) {
+      fail_at(place(), "no atoms behind END in line " + std::to_string(*end_line_) + " but those before it again",
+              trim(line), "; if all are to be one molecule, take END out");
+    }
+  }
+
+  std::string_view name_;
+  LineReader lines_;
+  StructureBuilder builder_;
+  FrameAtoms frame_atoms_;
+  UnknownLines unknown_lines_;
+  bool has_atoms_ = false;
+  std::optional<std::size_t> end_line_;  // of the first END behind an atom
+};
 
 }  // namespace
 
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
                    const std::filesystem::path& radii_file) {
-  StructureBuilder builder(name, {radii, radii_file});
-  LineReader lines(require_text(text, name));
-  while (const auto line = lines.next()) {
-    const LinePlace place{name, lines.number()};
-    switch (kind_of(*line, place)) {
-      case RecordKind::kAtom:
-        read_atom(*line, place, builder);
-        break;
-      case RecordKind::kModel:
-      case RecordKind::kEndOfModel:
-      case RecordKind::kEnd:
-        // Numbers do not tell models apart: frames may all have the same, or none.
-        builder.end_model(place.line);
-        break;
-      case RecordKind::kPassedOver:
-      case RecordKind::kUnknown:
-        break;
-    }
-  }
-  return builder.finish();
+  return PdbParser(require_text(text, name), name, {radii, radii_file}).parse();
 }
 
 }  // namespace gaussmesh

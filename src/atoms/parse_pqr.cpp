@@ -4,6 +4,7 @@
 #include "atoms/atom_fields.h"
 #include "atoms/pqr_checks.h"
 #include "atoms/pqr_record.h"
+#include "atoms/unknown_lines.h"
 #include "core/number_text.h"
 #include "gaussmesh/error.h"
 
@@ -34,10 +35,8 @@ class PqrParser {
   void start_model();
   void end_model();
   void note_end();
-  void note_unknown(std::string_view content);
   void warn_of_models();
   void warn_of_end();
-  void warn_of_unknown();
   LinePlace place() const { return {name_, lines_.number()}; }
 
   std::string_view name_;
@@ -53,9 +52,7 @@ class PqrParser {
   std::size_t atoms_in_other_models_ = 0;
   std::optional<std::size_t> end_line_;  // of the first END behind an atom
   std::size_t atoms_after_end_ = 0;
-  std::size_t unknown_lines_ = 0;
-  std::size_t first_unknown_line_ = 0;
-  std::string_view first_unknown_;
+  UnknownLines unknown_lines_;
 };
 
 AtomFile PqrParser::parse() {
@@ -71,7 +68,7 @@ AtomFile PqrParser::parse() {
   large_radii_.warn(name_, file_);
   warn_of_models();
   warn_of_end();
-  warn_of_unknown();
+  unknown_lines_.warn(name_, file_);
   return std::move(file_);
 }
 
@@ -98,7 +95,7 @@ void PqrParser::read_line(std::string_view line) {
     case RecordKind::kPassedOver:
       break;
     case RecordKind::kUnknown:
-      note_unknown(content);
+      unknown_lines_.add(content, "PQR records", place());
       break;
   }
 }
@@ -167,20 +164,6 @@ void PqrParser::fail_at_layout(std::string_view line) const {
           trim(line), remedy);
 }
 
-void PqrParser::note_unknown(std::string_view content) {
-  if (content[0] == '<') {
-    fail_at(place(), "PQR records", content, "; PQR-XML is not supported, convert it to PQR");
-  }
-  if (content.starts_with("data_") || content.starts_with("loop_")) {
-    fail_at(place(), "PQR records", content,
-            "; mmCIF is read from files named .cif, or with --input-format mmcif, and --radii");
-  }
-  if (unknown_lines_++ == 0) {
-    first_unknown_line_ = lines_.number();
-    first_unknown_ = content;
-  }
-}
-
 void PqrParser::warn_of_models() {
   if (atoms_in_other_models_ > 0) {
     file_.warnings.push_back(to_string({name_, *model_end_line_}) + ": the first model ends here; left out " +
@@ -193,14 +176,6 @@ void PqrParser::warn_of_end() {
     file_.warnings.push_back(to_string({name_, *end_line_}) + ": END is followed by " +
                              counted(atoms_after_end_, "atom", "atoms") +
                              (atoms_after_end_ == 1 ? " that is" : " that are") + " read too");
-  }
-}
-
-void PqrParser::warn_of_unknown() {
-  if (unknown_lines_ > 0) {
-    file_.warnings.push_back(to_string({name_, first_unknown_line_}) + ": skipped " +
-                             counted(unknown_lines_, "line", "lines") + " of no known record, the first " +
-                             quoted(first_unknown_));
   }
 }
 

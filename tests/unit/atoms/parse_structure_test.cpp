@@ -253,6 +253,27 @@ TEST_CASE("frames are models, however they are parted") {
   CHECK(file.warnings[0] == "a.pdb: left out 2 atoms of models other than the first, which ends in line 3");
 }
 
+TEST_CASE("other atoms behind END are not lost") {
+  NamedAtom other = kCarbon;
+  other.number = "8";
+  const std::string first = pdb_line(kCarbon), second = pdb_line(other);
+  CHECK(error_of(first + "END\n" + first + second) ==
+        "a.pdb:4: expected no atoms behind END in line 2 but those before it again, got '" +
+            second.substr(0, second.size() - 1) + "'; if all are to be one molecule, take END out");
+  CHECK_THAT(error_of("MODEL 1\n" + first + "ENDMDL\nEND\nMODEL 1\n" + second + "ENDMDL\nEND\n"),
+             ContainsSubstring("a.pdb:6: expected no atoms behind END in line 4"));
+  CHECK(error_of(second + first + "END\n" + first + second + "END\n" + first + second + "END\n") == "no error");
+}
+
+TEST_CASE("lines that are no records of PDB are told") {
+  const std::string line = pdb_line(kCarbon);
+  CHECK(parse_pdb("REMARK\nROOT\n" + line + "ENDROOT\n", "a.pdb", "bondi").warnings ==
+        std::vector<std::string>{"a.pdb:2: skipped 2 lines of no known record, the first 'ROOT'"});
+  CHECK_THAT(error_of("data_1ABC\n" + line),
+             ContainsSubstring("a.pdb:1: expected PDB records, got 'data_1ABC'; mmCIF"));
+  CHECK_THAT(error_of("<!DOCTYPE html>\n"), ContainsSubstring("web pages"));
+}
+
 TEST_CASE("one model may have several chains, and an end") {
   const std::string line = pdb_line(kCarbon);
   const std::string text = GENERATE_COPY(line + "TER\n" + line + "END\n", line + line + "ENDMDL\nMASTER\nEND   \n",
@@ -290,6 +311,20 @@ TEST_CASE("mmCIF that is none") {
   CHECK_THAT(error_of_cif("data_x\nloop_\n"), ContainsSubstring("a.cif:"));
   text.replace(text.find("-2.25"), 5, "?    ");
   CHECK_THAT(error_of_cif(text), ContainsSubstring("a.cif: atom 1: expected a coordinate"));
+}
+
+TEST_CASE("mmCIF whose atoms are not in the first block alone") {
+  const std::string text = mmcif_text({kCarbon});
+  CHECK(parse_mmcif("data_OTHER\n_cell.length_a 3\n" + text, "a.cif", "bondi").atoms.size() == 1);
+  std::string next = text;
+  next.replace(next.find("TEST"), 4, "NEXT");
+  try {
+    parse_mmcif(text + next, "a.cif", "bondi");
+    FAIL("two molecules are not read as one");
+  } catch (const InputError& error) {
+    CHECK(error.what() == std::string("a.cif:17: expected one loop _atom_site, in line 3, got another in block 'NEXT'; "
+                                      "make a file of each block"));
+  }
 }
 
 TEST_CASE("mmCIF whose table lacks a column") {
