@@ -38,11 +38,13 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
   CLI::App* command = program.add_subcommand("check", "judge whether a solver can trust a mesh");
   command->add_option("mesh", options.mesh, "mesh to judge, in any format that convert reads; -: standard input")
       ->type_name("MESH")
+      ->check(file_name())
       ->required();
   CLI::Option* molecule =
       command
           ->add_option("molecule", options.molecule, "molecule that it should be the surface of: PQR, XYZR, PDB, mmCIF")
-          ->type_name("MOL");
+          ->type_name("MOL")
+          ->check(file_name());
   const std::string surface = "Surface of the molecule";
   for (CLI::Option* option : add_surface_options(*command, options.surface)) option->needs(molecule)->group(surface);
   for (CLI::Option* option : add_molecule_options(*command, options.reading))
@@ -77,7 +79,7 @@ CLI::App* add_check_command(CLI::App& program, CheckOptions& options) {
 int run_check(const CheckOptions& options) {
   std::vector<std::string> inputs = files_of_molecule(options.molecule.value_or(""), options.reading);
   inputs.push_back(options.mesh);
-  require_other_files(inputs, {options.json.value_or("")});
+  require_files(inputs, {options.json.value_or("")});
   const CheckFindings found = find_all(options);
   put_report(findings_text(found), findings_json(found), options.json);
   return found.is_good() ? kGood : kCheckFailed;

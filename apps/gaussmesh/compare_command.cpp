@@ -42,8 +42,9 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
   CLI::App* app = program.add_subcommand("compare", "measure how far two meshes are from each other");
   app->add_option("A", command.first, "mesh, in any format that convert reads; -: standard input")
       ->type_name("MESH")
+      ->check(file_name())
       ->required();
-  app->add_option("B", command.second, "the other mesh")->type_name("MESH")->required();
+  app->add_option("B", command.second, "the other mesh")->type_name("MESH")->check(file_name())->required();
   app->add_option("--density", command.options.samples_per_A2,
                   "samples on each area of the surfaces (1/A^2, > 0; default: 25)")
       ->type_name("N")
@@ -58,7 +59,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
 }
 
 int run_compare(const CompareCommand& command) {
-  require_other_files({command.first, command.second}, {command.json.value_or("")});
+  require_files({command.first, command.second}, {command.json.value_or("")});
   const TriangleMesh first = read_mesh_argument(command.first).mesh;
   const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);

@@ -6,6 +6,7 @@
 #include "gaussmesh/error.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -23,13 +24,16 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
       ->add_option("input", options.input,
                    "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
       ->type_name("MESH")
+      ->check(file_name())
       ->required();
   command->add_option("output", options.outputs, "meshes to write; -: standard output")
       ->type_name("OUT...")
+      ->check(file_name())
       ->required();
   CLI::Option* molecule =
       command->add_option("--molecule", options.molecule, "molecule of the mesh, for the nearest atoms (default: none)")
-          ->type_name("MOL");
+          ->type_name("MOL")
+          ->check(file_name());
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   command->footer(

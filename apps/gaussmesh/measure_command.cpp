@@ -1,6 +1,8 @@
 #include "measure_command.h"
 
 #include <algorithm>
+#include <iostream>
+#include <utility>
 
 #include "exit_code.h"
 #include "gaussmesh/check_mesh.h"
@@ -9,6 +11,7 @@
 #include "gaussmesh/write_mesh.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -61,13 +64,16 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
   CLI::App* app = program.add_subcommand("measure", "area and volume of a mesh, in all and at each atom");
   app->add_option("mesh", command.mesh, "mesh, in any format that convert reads; -: standard input")
       ->type_name("MESH")
+      ->check(file_name())
       ->required();
-  CLI::Option* molecule =
-      app->add_option("molecule", command.molecule, "its molecule: PQR, XYZR, PDB, mmCIF")->type_name("MOL");
+  CLI::Option* molecule = app->add_option("molecule", command.molecule, "its molecule: PQR, XYZR, PDB, mmCIF")
+                              ->type_name("MOL")
+                              ->check(file_name());
   app->add_option(
          "--atom-areas", command.atom_areas,
          "write a line for each atom: its number, counted from 1, and the area nearest to it, A^2 (default: none)")
       ->type_name("FILE")
+      ->check(file_name())
       ->needs(molecule);
   for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
   add_json_option(*app, command.json);
@@ -84,7 +90,7 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
 int run_measure(const MeasureCommand& command) {
   std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
   inputs.push_back(command.mesh);
-  require_other_files(inputs, {command.json.value_or(""), command.atom_areas.value_or("")});
+  require_files(inputs, {command.json.value_or(""), command.atom_areas.value_or("")});
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)
@@ -96,8 +102,11 @@ int run_measure(const MeasureCommand& command) {
                              "vertices without usable coordinates"));
   if (command.molecule)
     found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false).atoms);
-  if (command.atom_areas) write_text(areas_text(found.by_atoms->areas), *command.atom_areas);
-  put_report(measured_text(found), measured_json(found), command.json);
+  OutputFiles files;
+  if (command.atom_areas) files.add_text(areas_text(found.by_atoms->areas), *command.atom_areas);
+  const bool is_taken = is_standard_output(command.atom_areas.value_or(""));
+  put_report(measured_text(found), measured_json(found), command.json, is_taken ? std::cerr : std::cout,
+             std::move(files));
   return kGood;
 }
 

@@ -230,12 +230,14 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
                   "mesh to write; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
+      ->check(file_name())
       ->group(group);
   for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(group);
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
       ->type_name("FILE")
+      ->check(file_name())
       ->group(group);
 }
 
@@ -243,7 +245,7 @@ void add_running_group(CLI::App& program, MeshCommand& command) {
   const std::string group = "Running";
   program.add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
       ->type_name("N")
-      ->check(number_between(0.0, 4096.0))
+      ->check(whole_number_between(0, 4096))
       ->group(group);
   program
       .add_option("--max-memory", command.max_memory,

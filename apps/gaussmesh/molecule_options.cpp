@@ -19,7 +19,8 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
               "--radii-file", [&options](const std::string& file) { options.reading.radii_file = file; },
               "lines of [RESIDUE] NAME-or-ELEMENT radius (A): radii that come before those of --radii, or stand alone "
               "(default: none)")
-          ->type_name("FILE"),
+          ->type_name("FILE")
+          ->check(file_name()),
       command
           .add_option("--input-format", options.reading.format,
                       join_names(atom_formats(), ", ") + " (default: by the extension, else PQR)")

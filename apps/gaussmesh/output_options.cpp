@@ -1,5 +1,6 @@
 #include "output_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -7,6 +8,18 @@
 #include "validators.h"
 
 namespace gaussmesh::app {
+namespace {
+
+/// Keeps what is read from being replaced by what is written. @throws OptionError
+void require_other_file(const std::vector<std::string>& inputs, const std::string& output) {
+  for (const std::string& input : inputs) {
+    std::error_code error;  // of files that are not there
+    if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error)) continue;
+    throw OptionError("expected another file to write than '" + input + "', which is read, got '" + output + "'");
+  }
+}
+
+}  // namespace
 
 std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
   std::vector<std::string> names;
@@ -25,44 +38,36 @@ WriteOptions writing_options(WriteOptions writing, bool no_header) {
   return writing;
 }
 
+void require_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
+    throw OptionError("expected '-' for one of the inputs, got it for two: standard input can be read once");
+  std::set<std::filesystem::path> seen;
+  for (const std::string& output : outputs) {
+    if (output.empty()) continue;
+    require_other_file(inputs, output);
+    std::error_code error;
+    std::filesystem::path place = output;
+    if (output != "-") place = std::filesystem::weakly_canonical(std::filesystem::absolute(output), error);
+    if (error) place = output;  // of a pipe of the shell, whose link in /dev/fd leads nowhere
+    const bool is_device = std::filesystem::is_character_file(place, error);
+    if (!seen.insert(place).second && !is_device)
+      throw OptionError("expected each output once, got '" + output + "' again");
+    require_writable(output);
+  }
+}
+
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
                               const WriteOptions& writing, const std::vector<std::string>& inputs) {
-  std::set<std::filesystem::path> seen;
-  const auto require_new = [&](const std::filesystem::path& file) {
-    require_other_files(inputs, {file.string()});
-    std::error_code error;
-    std::filesystem::path place =
-        file == "-" ? file : std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
-    if (error) place = file;  // of a pipe of the shell, whose link in /dev/fd leads nowhere
-    const bool is_device = std::filesystem::is_character_file(place, error);
-    if (!seen.insert(place).second && !is_device) {
-      throw OptionError("-o: expected each output once, got '" + file.string() + "' again");
-    }
-  };
+  std::vector<std::string> files;
   for (const std::string& output : outputs) {
-    for (const std::filesystem::path& file : files_of(output, writing)) {
-      require_new(file);
-      require_writable(file);
-    }
+    for (const std::filesystem::path& file : files_of(output, writing)) files.push_back(file.string());
   }
-  if (report.empty()) return;
-  require_new(report);
-  require_writable(report);
+  files.push_back(report);
+  require_files(inputs, files);
 }
 
 bool is_standard_output(const std::string& output) {
   return output == "-" || output == "/dev/stdout" || output == "/dev/fd/1" || output == "/proc/self/fd/1";
-}
-
-void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) {
-    for (const std::string& input : inputs) {
-      std::error_code error;  // of files that are not there
-      if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error))
-        continue;
-      throw OptionError("expected another file to write than '" + input + "', which is read, got '" + output + "'");
-    }
-  }
 }
 
 }  // namespace gaussmesh::app

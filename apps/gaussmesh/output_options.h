@@ -15,18 +15,17 @@ std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& wr
 /// `writing` as it is meant, with the flag.
 WriteOptions writing_options(WriteOptions writing, bool no_header);
 
-/// Finds out before the work what cannot be written. `report`, and names of inputs, may be empty.
+/// Finds out before the work what cannot be read and written; names may be empty.
 ///
-/// @throws OptionError for an unknown format, and where two outputs are one file, or an output is one of the inputs
+/// @throws OptionError where two inputs are standard input, two outputs are one file, or an output is one of the inputs
 /// @throws InputError  for a place that cannot be written to
+void require_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+/// The same for the files that meshes become, and a report. @throws OptionError also for an unknown format
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
                               const WriteOptions& writing, const std::vector<std::string>& inputs);
 
 /// Whether the name is one of those that standard output goes by.
 bool is_standard_output(const std::string& output);
-
-/// Keeps what is read from being replaced by what is written; names may be empty. @throws OptionError where a file is
-/// both
-void require_other_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace gaussmesh::app

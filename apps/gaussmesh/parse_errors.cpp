@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "config_file.h"
+#include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
 #include "help_format.h"
 #include "validators.h"
@@ -49,14 +51,62 @@ std::string too_many_words(const CLI::App& program, const std::vector<std::strin
          (molecule.empty() ? "" : did_you_mean(molecule.front(), commands));
 }
 
-/// The option of which there are more values than it takes, if that is the error.
-const CLI::Option* repeated(const CLI::App& program, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return nullptr;
-  const std::string what = error.what();
+/// The option that CLI11's message is about, which begins with its name or has it last; nothing if there is none.
+const CLI::Option* option_of(const CLI::App& program, const std::string& message) {
+  const std::size_t end = message.find_first_of(": ");
   for (const CLI::Option* option : called(program).get_options()) {
-    if (option->count() > 1 && what.starts_with(option->get_name() + ": ")) return option;
+    const std::string name = option->get_name();
+    if (message.substr(0, end) == name || message.find(": " + name + " = ") != std::string::npos) return option;
   }
   return nullptr;
+}
+
+/// What a command needs and what it got, such as `gaussmesh compare: expected MESH MESH, got 'a.off'`.
+std::string missing_words(const CLI::App& command) {
+  std::vector<std::string> wanted, got;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional() || !option->get_required()) continue;
+    wanted.push_back(value_name(*option));
+    for (const std::string& word : option->results()) got.push_back(word);
+  }
+  return "gaussmesh " + command.get_name() + ": expected " + join_names(wanted, " ") + ", got " +
+         (got.empty() ? "nothing" : join_names(quoted(got), ", "));
+}
+
+/// A message of CLI11 `NAME <relation> OTHER` in other words; empty if it is none.
+std::string about_two(const CLI::App& program, const std::string& message) {
+  for (const std::string_view relation : {" requires ", " excludes "}) {
+    const std::size_t at = message.find(relation);
+    if (at == std::string::npos) continue;
+    const std::string name = message.substr(0, at), other = message.substr(at + relation.size());
+    const CLI::Option* const option = called(program).get_option_no_throw(other);
+    const std::string shown = option != nullptr && option->get_positional() ? value_name(*option) : other;
+    return relation == " requires " ? name + ": expected " + shown + " too, got none"
+                                    : "expected " + name + " or " + shown + ", got both";
+  }
+  return "";
+}
+
+/// What CLI11 says, in the program's words where it is known what that is about.
+std::string in_own_words(const CLI::App& program, const CLI::ParseError& error) {
+  const std::string message = error.what();
+  const std::string two = about_two(program, message);
+  if (!two.empty()) return two;
+  if (dynamic_cast<const CLI::FileError*>(&error) != nullptr)
+    return program.get_config_ptr()->as<std::string>() + ": expected a readable file of options, got none";
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_words(called(program));
+  const CLI::Option* const option = option_of(program, message);
+  if (option == nullptr) return message;
+  const std::vector<std::string> got = quoted(option->results());
+  const std::string where = option->get_name() + ": expected ";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    return got.size() > 1 ? where + "once, got " + std::to_string(got.size()) + " values: " + join_names(got, ", ")
+                          : where + value_name(*option) + " behind it, got nothing";
+  }
+  const bool is_flag = option->get_expected_max() == 0;
+  if (is_flag && dynamic_cast<const CLI::ConversionError*>(&error) != nullptr)
+    return where + "true or false, got " + join_names(got, ", ");
+  return message;
 }
 
 }  // namespace
@@ -68,12 +118,17 @@ std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
   if (option != extras.end()) return unknown_option(program, *option);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return too_many_words(program, extras);
   const auto config = std::dynamic_pointer_cast<const ConfigFile>(program.get_config_formatter());
-  const std::string place = config ? config->place_of(error.what()) : "";
-  if (const CLI::Option* const twice = repeated(program, error)) {
-    return place + twice->get_name() + ": expected once, got " + std::to_string(twice->count()) +
-           " values: " + join_names(quoted(twice->results()), ", ");
+  return (config ? config->place_of(error.what()) : "") + in_own_words(program, error);
+}
+
+void require_command_alone(const CLI::App& program) {
+  const CLI::App& command = called(program);
+  if (&command == &program) return;
+  for (const CLI::Option* option : program.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string got = option->get_positional() ? option->results().front() : option->get_name();
+    throw OptionError("expected '" + command.get_name() + "' as the first word, got '" + got + "' before it");
   }
-  return place + error.what();
 }
 
 }  // namespace gaussmesh::app

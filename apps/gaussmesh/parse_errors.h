@@ -10,4 +10,8 @@ namespace gaussmesh::app {
 /// which name is near to one that there is not. CLI11 lists what fits nowhere backwards, and knows no near names.
 std::string message_of(const CLI::App& program, const CLI::ParseError& error);
 
+/// Options before the name of a sub-command are those of meshing, and nothing is meshed then. @throws OptionError if
+/// there are any
+void require_command_alone(const CLI::App& program);
+
 }  // namespace gaussmesh::app

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "gaussmesh/write_mesh.h"
+#include "validators.h"
 
 namespace gaussmesh::app {
 namespace {
@@ -73,16 +73,19 @@ MeshFile read_mesh_argument(const std::string& path) {
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file) {
+void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file,
+                std::ostream& out, OutputFiles files) {
   const bool json_to_terminal = json_file == "-";
-  if (json_file && !json_to_terminal) write_text(json, *json_file);
-  std::cout << (json_to_terminal ? json : text) << std::flush;
+  if (json_file && !json_to_terminal) files.add_text(json, *json_file);
+  files.commit();
+  (json_to_terminal ? std::cout << json : out << text) << std::flush;
 }
 
 void add_json_option(CLI::App& command, std::optional<std::string>& file) {
   command
       .add_option("--json", file, "write what is found as JSON; -: to the terminal, and nothing else (default: none)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(file_name());
 }
 
 }  // namespace gaussmesh::app

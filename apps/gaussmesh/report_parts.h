@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "gaussmesh/atom.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/read_mesh.h"
+#include "gaussmesh/write_mesh.h"
 
 namespace gaussmesh::app {
 
@@ -36,8 +38,10 @@ MeshFile read_mesh_argument(const std::string& path);
 /// JSON as it is written, with a newline at the end; names that are not UTF-8 are made so.
 std::string json_text(const Json& json);
 
-/// Prints the text, and writes the JSON if a file is named: "-" puts the JSON on the terminal in place of the text.
-void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file);
+/// Writes the JSON if a file is named, together with `files`, and prints the text to `out`: "-" puts the JSON on standard
+/// output in place of the text.
+void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file,
+                std::ostream& out = std::cout, OutputFiles files = {});
 
 /// The option that names the file.
 void add_json_option(CLI::App& command, std::optional<std::string>& file);

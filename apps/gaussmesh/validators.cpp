@@ -69,6 +69,22 @@ CLI::Validator number_between(double low, double high) {
       "");
 }
 
+CLI::Validator whole_number_between(int low, int high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) {
+        const std::optional<double> value = finite_number(text);
+        if (value && *value >= low && *value <= high && *value == std::floor(*value)) return std::string();
+        return "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ", got '" +
+               text + "'";
+      },
+      "");
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& text) { return text.empty() ? "expected the name of a file, got ''" : std::string(); }, "");
+}
+
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) {

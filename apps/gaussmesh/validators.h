@@ -17,11 +17,17 @@ CLI::Validator one_of(const std::vector<std::string>& names);
 /// Takes numbers from `low` to `high`, both included.
 CLI::Validator number_between(double low, double high);
 
+/// Takes whole numbers from `low` to `high`, both included.
+CLI::Validator whole_number_between(int low, int high);
+
 /// Takes numbers above 0. CLI11's own PositiveNumber answers with a bound of 309 digits.
 CLI::Validator positive_number();
 
 /// Takes numbers from `low` on.
 CLI::Validator number_from(double low);
+
+/// Takes every text but none, which scripts give where a variable of theirs is not set.
+CLI::Validator file_name();
 
 /// Takes sizes of memory from `least` (bytes) on: whole numbers of bytes, or numbers of K, M, G or T of 1024, 1024^2,
 /// ... bytes, with or without a B or iB behind. Makes bytes of them.

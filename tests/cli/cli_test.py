@@ -227,6 +227,31 @@ class WrongUse(CliTest):
         error = self.expect(WRONG_USE, "check", self.mesh, self.molecule("methanol"), "third").stderr
         self.assertIn("gaussmesh check: expected no further file, got 'third'", error)
 
+    def test_what_is_missing_or_does_not_go_together_is_told(self):
+        molecule, write = self.molecule("methanol"), ["-o", self.mesh]
+        for arguments, said in [
+                (["compare", "a.off"], "gaussmesh compare: expected MESH MESH, got 'a.off'"),
+                (["convert"], "gaussmesh convert: expected MESH OUT..., got nothing"),
+                ([molecule, "-o"], "--output: expected FILE behind it, got nothing"),
+                (["check", "a.off", "--json"], "--json: expected FILE behind it, got nothing"),
+                ([molecule, *write, "--threads", "1.5"],
+                 "--threads: expected a whole number from 0 to 4096, got '1.5'"),
+                ([molecule, *write, "--raw=maybe"], "--raw: expected true or false, got 'maybe'"),
+                (["measure", "a.off", "--atom-areas", "a"], "--atom-areas: expected MOL too, got none"),
+                (["convert", "a.off", "b.off", "--probe", 1], "--probe: expected --molecule too, got none"),
+                ([molecule, *write, "--quiet", "--verbose"], "expected --quiet or --verbose, got both"),
+                ([molecule, *write, "--report", ""], "--report: expected the name of a file, got ''"),
+                (["check", "a.off", "--json", ""], "--json: expected the name of a file, got ''"),
+                ([molecule, *write, "check", self.mesh],
+                 f"expected 'check' as the first word, got '{molecule}' before"),
+                (["--spacing", 1, "measure", self.mesh],
+                 "expected 'measure' as the first word, got '--spacing' before"),
+                (["check", "-", "-"], "expected '-' for one of the inputs, got it for two"),
+                (["compare", "-", "-"], "expected '-' for one of the inputs, got it for two")]:
+            self.refused(*arguments, names="^gaussmesh: " + re.escape(said))
+        error = self.expect(BAD_INPUT, molecule, *write, "--config", "none.toml").stderr
+        self.assertEqual(error.splitlines()[0], "gaussmesh: none.toml: expected a readable file of options, got none")
+
     def test_check_of_nothing(self):
         self.refused("check")
 
@@ -470,10 +495,11 @@ class Running(CliTest):
         for text, said in [("# no option\n\nspacing = 0\n",
                             "3: --spacing: expected a number from 0.01 to 1000, got '0'"),
                            ('preset = "vdv"\n', "1: --preset: expected ses-volume"),
-                           ("c = 1.2\nthreads = 1.5\n", "2: Could not convert: --threads = 1.5"),
-                           ("quiet = maybe\n", "1: "),
+                           ("c = 1.2\nthreads = 1.5\n",
+                            "2: --threads: expected a whole number from 0 to 4096, got '1.5'"),
+                           ("quiet = maybe\n", "1: --quiet: expected true or false, got 'maybe'"),
                            ('decay = 0.5\nc = 1\npreset = "vdw"\n',
-                            "[13]: --(d excludes --preset|preset excludes --d)"),
+                            "[13]: expected --(d or --preset|preset or --d), got both"),
                            ("d = 0.5\nc = 1\ndecay = 0.6\n", "3: expected each option once, got 'decay' again"),
                            ("d = 0.5\nc = 1\nd = 0.6\n", "3: expected each option once, got 'd' again"),
                            ("c = 1\n[foo]\nbar = 1\n", r"2: expected options without sections, got '\[foo\]'"),
@@ -822,6 +848,15 @@ class Measure(CliTest):
         self.assertEqual(number, "1")
         self.assertAlmostEqual(float(area), 4 * math.pi * self.radius**2, delta=0.3)
         self.expect(WRONG_USE, "measure", self.mesh, "--atom-areas", areas)
+
+    def test_files_appear_together(self):
+        error = self.expect(WRONG_USE, "measure", self.mesh, self.atom, "--atom-areas", "x", "--json", "./x").stderr
+        self.assertIn("expected each output once, got 'x' again", error)
+        self.expect(BAD_INPUT, "measure", self.mesh, self.atom, "--atom-areas", "x", "--json", "no/such/x")
+        self.assertEqual(self.files(), ["atom.pqr", "out.off"])
+        piped = self.expect(0, "measure", self.mesh, self.atom, "--atom-areas", "-", "--json", "x")
+        self.assertRegex(piped.stdout, r"^1 [\d.]+\n$", "nothing else on standard output")
+        self.assertIn("Atoms with a share", piped.stderr)
 
     def test_without_a_molecule(self):
         self.assertNotIn("van der Waals", self.expect(0, "measure", self.mesh).stdout)
