@@ -112,7 +112,8 @@ Product select_cavities(const MeshCommand& command, Product product) {
 
 /// Writes down what the library does not know.
 void tell_of_input(const MeshCommand& command, const Surface& surface, const AtomFile& input, MeshReport& report) {
-  report.source = {command.molecule, surface.reading.reading.radii, input.warnings};
+  const ReadOptions& reading = surface.reading.reading;
+  report.source = {command.molecule, reading.radii, input.warnings, reading.radii_file.string()};
   report.probe_radius = surface.reading.probe.value_or(0.0);
   report.cavities = command.cavities;
   report.min_cavity_volume = command.min_cavity_volume;

@@ -66,6 +66,7 @@ struct AtomSource {
   std::string file;                   ///< as it was named; "-": standard input
   std::string radii;                  ///< the set that was asked for, for files that have none of their own
   std::vector<std::string> warnings;  ///< of the reader
+  std::string radii_file = {};        ///< the file of radii that was named, whose entries come before the set
 };
 
 /// How the mesh came about, and what was proven of it.

@@ -26,7 +26,10 @@ Json options_json(const MeshReport& report) {
 
 Json input_json(const AtomSource& source) {
   const auto name = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
-  return {{"file", name(source.file)}, {"radii", name(source.radii)}, {"warnings", source.warnings}};
+  return {{"file", name(source.file)},
+          {"radii", name(source.radii)},
+          {"radii_file", name(source.radii_file)},
+          {"warnings", source.warnings}};
 }
 
 Json components_json(const MeshCheck& check) {

@@ -225,6 +225,11 @@ class Schema(CliTest):
                     "-o", self.mesh, "--report", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual((report["input"]["file"], report["input"]["radii"]), ("mol.pdb", "bondi"))
+        self.assertIsNone(report["input"]["radii_file"])
+        self.write("my.radii", "N 1.6\n")
+        self.expect(0, "mol.pdb", "--radii", "bondi", "--radii-file", "my.radii", "--raw", "--spacing", 2,
+                    "-o", self.mesh, "--report", "own.json")
+        self.assertEqual(json.loads((self.folder / "own.json").read_text())["input"]["radii_file"], "my.radii")
         self.assertIn("mol.pdb", "".join(report["input"]["warnings"]))
         self.assertEqual(report["options"]["cavities"], "keep")
         self.assertEqual(report["options"]["min_cavity_volume_A3"], 20)

@@ -81,6 +81,7 @@ TEST_CASE("what the caller knows of the atoms is in the report, in UTF-8 whateve
   json = nlohmann::json::parse(report_json(report));
   CHECK_THAT(json.at("input").at("file").get<std::string>(), Catch::Matchers::ContainsSubstring(".pdb"));
   CHECK(json.at("input").at("radii") == "bondi");
+  CHECK(json.at("input").at("radii_file").is_null());
   CHECK(json.at("input").at("warnings").at(0) == "left out 3 atoms of water");
   CHECK(json.at("options").at("cavities") == "drop");
   CHECK(json.at("options").at("min_cavity_volume_A3") == 11.4);
