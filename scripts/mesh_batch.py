@@ -115,8 +115,9 @@ def run(command, options):
 def meshes_of(name, options):
     """The files that tell whether a molecule has its mesh; of separate surfaces, the first one."""
     stem = f"{name}_1" if "separate" in options.rest or "--cavities=separate" in options.rest else name
-    pair = {".vert", ".face"}
-    return [options.output / f"{stem}{end}" for end in (pair if options.extension in pair else {options.extension})]
+    pair, packed = {".vert", ".face"}, ".gz" if options.extension.endswith(".gz") else ""
+    extension = options.extension.removesuffix(packed)
+    return [options.output / f"{stem}{end}{packed}" for end in (pair if extension in pair else {extension})]
 
 
 def is_done(path, meshes, report, stamp, options):

@@ -26,7 +26,7 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
       ->type_name("MESH")
       ->check(file_name())
       ->required();
-  command->add_option("output", options.outputs, "meshes to write; -: standard output")
+  command->add_option("output", options.outputs, "meshes to write, gzipped if they end in .gz; -: standard output")
       ->type_name("OUT...")
       ->check(file_name())
       ->required();

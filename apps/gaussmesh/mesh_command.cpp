@@ -7,6 +7,7 @@
 
 #include "exit_code.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/nearest_name.h"
 #include "gaussmesh/select_components.h"
 #include "memory_limit.h"
 #include "output_options.h"
@@ -63,11 +64,16 @@ std::filesystem::path folder_of(const std::filesystem::path& output) {
   return output.has_parent_path() ? output.parent_path() : ".";
 }
 
-/// The name of the file for one of several surfaces: from out.off to out_1.off.
+/// The name of the file for one of several surfaces: from out.off to out_1.off, from out.off.gz to out_1.off.gz.
 std::string numbered(const std::string& output, std::size_t number) {
   const std::filesystem::path path = output;
-  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
-      .string();
+  std::filesystem::path stem = path.stem();
+  std::string extension = path.extension().string();
+  if (lower_case(extension) == ".gz") {
+    extension = stem.extension().string() + extension;
+    stem = stem.stem();
+  }
+  return (path.parent_path() / (stem.string() + "_" + std::to_string(number) + extension)).string();
 }
 
 /// The names of all meshes where there are so many surfaces.
@@ -228,7 +234,7 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
   const std::string group = "Output";
   program
       .add_option("-o,--output", command.outputs,
-                  "mesh to write; may be given several times; -: standard output (required)")
+                  "mesh to write, gzipped if it ends in .gz; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
       ->check(file_name())

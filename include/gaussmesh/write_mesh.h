@@ -30,7 +30,8 @@ struct MeshFormat {
 const std::vector<MeshFormat>& mesh_formats();
 
 struct WriteOptions {
-  std::string format;       ///< a name of mesh_formats(); empty: the extension decides, OFF for standard output
+  std::string format;       ///< a name of mesh_formats(); empty: the extension decides, perhaps before a `.gz`, and
+                            ///< standard output is OFF
   bool msms_header = true;  ///< the three lines in front of MSMS vertices and faces
   int threads = 0;          ///< 0: as many as there are processors
 };
@@ -39,7 +40,7 @@ struct WriteOptions {
 /// committed leaves nothing behind, and old files are as they were.
 ///
 /// The path `-` is standard output, and devices and pipes are written where they are; there, nothing can be taken
-/// back. A symbolic link is followed.
+/// back. A symbolic link is followed. What has a name that ends in `.gz`, in any case, is gzipped.
 class OutputFiles {
  public:
   OutputFiles();

@@ -112,6 +112,13 @@ class GzipReader {
   std::string text_;
 };
 
+/// Whether `name` ends in `ending`, in any case.
+bool ends_in(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size() &&
+         std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char a, char b) { return to_upper(a) == to_upper(b); });
+}
+
 std::string expand(std::string data, std::string_view name) {
   return data.starts_with(kGzipMagic) ? GzipReader(data, name).expand() : data;
 }
@@ -135,16 +142,11 @@ std::string read_file(const std::filesystem::path& path) {
 
 std::string read_stream(std::istream& input, std::string_view name) { return expand(read_all(input, name, 0), name); }
 
-bool has_extension(std::string_view name, std::string_view extension) {
-  const auto ends_in = [&name](std::string_view ending) {
-    return name.size() >= ending.size() &&
-           std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
-                      [](char a, char b) { return to_upper(a) == to_upper(b); });
-  };
-  if (ends_in(".gz")) {
-    name.remove_suffix(3);
-  }
-  return ends_in(extension);
+std::string_view without_gzip(std::string_view name) {
+  constexpr std::string_view kEnding = ".gz";
+  return ends_in(name, kEnding) ? name.substr(0, name.size() - kEnding.size()) : name;
 }
+
+bool has_extension(std::string_view name, std::string_view extension) { return ends_in(without_gzip(name), extension); }
 
 }  // namespace gaussmesh

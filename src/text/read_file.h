@@ -16,6 +16,9 @@ std::string read_file(const std::filesystem::path& path);
 /// What is left of `input`, in the same way; `name` stands for it in messages.
 std::string read_stream(std::istream& input, std::string_view name);
 
+/// `name` without a `.gz` at its end, in any case.
+std::string_view without_gzip(std::string_view name);
+
 /// Whether `name` ends in `extension`, in any case, perhaps before a `.gz`. `extension` has its dot.
 bool has_extension(std::string_view name, std::string_view extension);
 

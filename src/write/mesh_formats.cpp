@@ -4,6 +4,7 @@
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/nearest_name.h"
+#include "text/read_file.h"
 
 namespace gaussmesh {
 namespace {
@@ -48,7 +49,7 @@ const FormatEntry& find_by_name(const std::string& name) {
 }
 
 const FormatEntry& find_by_extension(const std::filesystem::path& path) {
-  const std::string extension = lower_case(path.extension().string());
+  const std::string extension = lower_case(std::filesystem::path(without_gzip(path.native())).extension().string());
   std::vector<std::string_view> extensions;
   for (const FormatEntry& entry : kFormats) {
     for (const std::string_view known : entry.extensions) {
@@ -95,9 +96,11 @@ const MeshFormat& format_of(const std::filesystem::path& path, const WriteOption
 
 std::filesystem::path part_path(const std::filesystem::path& path, const FormatPart& part) {
   if (part.extension.empty()) return path;
-  std::filesystem::path result = path;
-  const std::string own = lower_case(path.extension().string());
-  return own == ".vert" || own == ".face" ? result.replace_extension(part.extension) : result += part.extension;
+  std::filesystem::path result = without_gzip(path.native());
+  const std::string ending = path.native().substr(result.native().size());
+  const std::string own = lower_case(result.extension().string());
+  if (own == ".vert" || own == ".face") result.replace_extension();
+  return (result += part.extension) += ending;
 }
 
 }  // namespace gaussmesh

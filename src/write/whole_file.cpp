@@ -14,6 +14,7 @@
 
 #include "gaussmesh/error.h"
 #include "gaussmesh/write_mesh.h"
+#include "text/read_file.h"
 
 namespace gaussmesh {
 namespace {
@@ -55,6 +56,7 @@ std::atomic<WholeFile::Unfinished*> WholeFile::unfinished_{nullptr};
 std::atomic<int> WholeFile::commits_under_way_{0};
 
 WholeFile::WholeFile(const fs::path& path) : path_(path), target_(end_of_links(path)) {
+  if (without_gzip(path.native()) != path.native()) gzip_ = std::make_unique<GzipEncoder>();
   if (path == "-") {
     descriptor_ = ::dup(STDOUT_FILENO);
     if (descriptor_ < 0) fail("cannot be opened");
@@ -93,7 +95,8 @@ WholeFile::WholeFile(WholeFile&& other) noexcept
       old_(std::exchange(other.old_, {})),
       old_is_lost_(std::exchange(other.old_is_lost_, false)),
       is_committed_(std::exchange(other.is_committed_, false)),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      gzip_(std::move(other.gzip_)) {}
 
 WholeFile::~WholeFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -134,16 +137,25 @@ void WholeFile::fail(const char* what) const {
 }
 
 void WholeFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(descriptor_, text.data(), text.size());
+  if (gzip_) {
+    put(gzip_->encode(text));
+  } else {
+    put(text);
+  }
+}
+
+void WholeFile::put(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("cannot be written");
-    text.remove_prefix(static_cast<std::size_t>(n));
+    bytes.remove_prefix(static_cast<std::size_t>(n));
   }
 }
 
 void WholeFile::close() {
   if (descriptor_ < 0) return;
+  if (gzip_) put(gzip_->finish());
   if (temporary_ != nullptr) {
     struct stat old {};
     if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 0777) != 0) {

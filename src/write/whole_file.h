@@ -3,8 +3,11 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include "write/gzip_encoder.h"
 
 namespace gaussmesh {
 
@@ -12,7 +15,7 @@ namespace gaussmesh {
 ///
 /// Where there is no file that could be replaced - `-` for standard output, devices, pipes, also those that the shell
 /// names /dev/fd/N - the output goes there at once. A symbolic link is followed, also where it leads to nothing yet.
-/// What is replaced keeps its permissions.
+/// What is replaced keeps its permissions. Names that end in `.gz`, in any case, get their text gzipped.
 class WholeFile {
  public:
   /// @throws InputError if no file can be made there
@@ -59,6 +62,7 @@ class WholeFile {
   static std::atomic<int> commits_under_way_;
 
   void make_temporary();
+  void put(std::string_view bytes);
   std::string beside_target() const;
   [[noreturn]] void fail(const char* what) const;
 
@@ -69,6 +73,7 @@ class WholeFile {
   bool old_is_lost_ = false;         // there is something to replace, and it cannot be kept
   bool is_committed_ = false;
   int descriptor_ = -1;
+  std::unique_ptr<GzipEncoder> gzip_;  // none where the text is written as it is
 };
 
 }  // namespace gaussmesh

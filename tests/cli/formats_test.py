@@ -6,6 +6,9 @@
 The molecule has a cavity, so that holes and components mean something.
 """
 
+import gzip
+import itertools
+import json
 import re
 import shutil
 import subprocess
@@ -249,6 +252,22 @@ class Convert(FormatTest):
         for name in ["m.vert", "m.obj", "m.msh", "m.smesh", "ascii.ply", "bare.face"]:
             with self.subTest(name):
                 self.assertEqual(self.expect(0, "convert", name, "-").stdout, (self.folder / "m.off").read_text())
+
+    def test_gzipped_where_the_name_says_so(self):
+        names = ["m.off", "m.vert", "m.ply", "m.obj", "m.stl", "m.msh", "m.smesh", "m.vtp"]
+        self.expect(0, "convert", "m.ply", *(f"n{name[1:]}.gz" for name in names))
+        for name in [*names, "m.face"]:
+            with self.subTest(name):
+                packed = (self.folder / f"n{name[1:]}.gz").read_bytes()
+                self.assertEqual(gzip.decompress(packed), FormatTest.made[name])
+                self.assertLess(len(packed), 0.8 * len(FormatTest.made[name]))
+        self.expect(0, "check", "n.face.gz")
+        self.expect(0, self.molecule("dmso"), *LEVEL, "--cavities", "separate", "-o", "s.OFF.GZ", "--format", "ply",
+                    "--report", "r.json.gz")
+        self.assertTrue(gzip.decompress((self.folder / "s_1.OFF.GZ").read_bytes()).startswith(b"ply\n"))
+        self.assertEqual(json.loads(gzip.decompress((self.folder / "r.json.gz").read_bytes()))["atoms"], 10)
+        error = self.expect(WRONG_USE, "convert", "m.off", "x.of.gz").stderr
+        self.assertIn("got '.of'; did you mean '.off'?", error)
 
     def test_nearest_atoms_on_request(self):
         self.expect(0, "convert", "m.obj", "n.vert", "--molecule", self.molecule("fas2"))

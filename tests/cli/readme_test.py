@@ -106,6 +106,7 @@ class Batch(CliTest):
         """What is missing is made again: one of two files, the first of separate surfaces."""
         shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
         for options, files in [(["--extension", ".vert"], ["m.vert", "m.face"]),
+                               (["--extension", "face.gz"], ["m.vert.gz", "m.face.gz"]),
                                (["--", "--cavities", "separate"], ["m_1.off"])]:
             for missing in files:
                 self.assertEqual(self.batch("m.pqr", "./m.pqr", "--output", "out", *options).returncode, 0)
