@@ -66,7 +66,7 @@ fuzz() {
   local target=$1 corpus=build/fuzz/corpus/$1 seeds=build/fuzz/seeds
   mkdir -p "$corpus" "$seeds"
   (cd "$seeds" && ../bin/gaussmesh ../../../data/methanol.pqr --spacing 1.2 -o m.off -o m.vert -o m.ply -o m.obj \
-    -o m.stl -o m.msh -o m.smesh && ../bin/gaussmesh convert m.ply m41.msh --format gmsh41 &&
+    -o m.stl -o m.msh -o m.smesh -o m.vtp && ../bin/gaussmesh convert m.ply m41.msh --format gmsh41 &&
     ../bin/gaussmesh convert m.ply ascii.ply --format ply-ascii) || return 1
   "build/fuzz/fuzz/$target" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 \
     -artifact_prefix="build/fuzz/$target-" "$corpus" "$seeds" tests/data

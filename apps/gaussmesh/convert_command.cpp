@@ -21,8 +21,9 @@ bool needs_normals(const std::vector<std::string>& outputs, const WriteOptions& 
 CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   CLI::App* command = program.add_subcommand("convert", "write a mesh in other formats");
   command
-      ->add_option("input", options.input,
-                   "mesh to read: OFF, PLY, OBJ, STL, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
+      ->add_option(
+          "input", options.input,
+          "mesh to read: OFF, PLY, OBJ, STL, VTP, Gmsh .msh, .smesh, MSMS, each also gzipped; -: standard input")
       ->type_name("MESH")
       ->check(file_name())
       ->required();
@@ -37,8 +38,8 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   command->footer(
-      "VTP is written and not read. Without a molecule, nearest atoms are those that the input has, if any. Normals\n"
-      "that it has not are averaged over the triangles.\n\n"
+      "Without a molecule, nearest atoms are those that the input has, if any. Normals that it has not are averaged\n"
+      "over the triangles.\n\n"
       "Examples:\n"
       "  gaussmesh convert out.vert out.ply out.vtp\n"
       "  gaussmesh convert out.off out.vert --molecule in.pqr --no-header\n"

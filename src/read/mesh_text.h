@@ -116,5 +116,6 @@ MeshFile parse_off(std::string_view bytes, std::string_view name);
 MeshFile parse_ply(std::string_view bytes, std::string_view name);
 MeshFile parse_smesh(std::string_view text, std::string_view name);
 MeshFile parse_stl(std::string_view bytes, std::string_view name);
+MeshFile parse_vtp(std::string_view bytes, std::string_view name);
 
 }  // namespace gaussmesh

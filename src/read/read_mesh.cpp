@@ -26,7 +26,7 @@ MeshFile parse_smesh_bytes(std::string_view bytes, std::string_view name) {
   return parse_smesh(require_text(bytes, name), name);
 }
 
-/// PLY and Gmsh are known by their first bytes, whatever their names.
+/// PLY, Gmsh and VTP are known by their first bytes, whatever their names.
 constexpr std::array<Kind, 4> kKinds = {
     {{".off", parse_off}, {".stl", parse_stl}, {".obj", parse_obj_bytes}, {".smesh", parse_smesh_bytes}}};
 
@@ -59,7 +59,7 @@ MeshFile parse_by_content(std::string_view bytes, std::string_view name) {
       return parse_obj_bytes(bytes, name);
     if (begins_smesh(lines.fields())) return parse_smesh_bytes(bytes, name);
   }
-  lines.fail("a mesh in OFF, PLY, OBJ, STL, Gmsh .msh or TetGen .smesh",
+  lines.fail("a mesh in OFF, PLY, OBJ, STL, VTP, Gmsh .msh or TetGen .smesh",
              "; MSMS is known by the extensions .vert and .face alone");
 }
 
@@ -95,8 +95,7 @@ MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
   require_content(bytes, name);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
   if (bytes.starts_with("$MeshFormat") || bytes.starts_with("$Comments")) return parse_gmsh(bytes, name);
-  if (bytes.starts_with("<?xml") || bytes.starts_with("<VTKFile"))
-    throw InputError(std::string(name) + ":1: expected a mesh in a format that is read, got XML; VTP is only written");
+  if (bytes.starts_with("<?xml") || bytes.starts_with("<VTKFile")) return parse_vtp(bytes, name);
   for (const Kind& kind : kKinds) {
     if (has_extension(name, kind.extension)) return kind.parse(bytes, name);
   }

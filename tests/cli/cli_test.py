@@ -741,9 +741,9 @@ class Check(CliTest):
         self.assertIn("OK", self.expect(0, "check", "-", stdin=mesh.read_text()).stdout)
         self.expect(0, "convert", "-", "-", "--format", "off", stdin=mesh.read_text())
 
-    def test_vtp_is_not_taken_for_off(self):
+    def test_reads_what_is_written_for_paraview(self):
         self.expect(0, self.molecule("methanol"), "-o", "m.vtp")
-        self.assertIn("VTP", self.expect(BAD_INPUT, "check", "m.vtp").stderr)
+        self.expect(0, "check", "m.vtp", self.molecule("methanol"))
 
     def test_presets_and_defaults_are_those_of_meshing(self):
         self.expect(0, self.molecule("methanol"), "-o", self.mesh)

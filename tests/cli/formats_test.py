@@ -244,9 +244,33 @@ class Msms(FormatTest):
 
 class Convert(FormatTest):
     def test_vertex_data_survive(self):
-        self.expect(0, "convert", "m.ply", "n.vert", "n.off", "n.msh", "n.vtp")
-        for suffix in ["vert", "face", "off", "msh", "vtp"]:
-            self.assertEqual((self.folder / f"n.{suffix}").read_bytes(), FormatTest.made[f"m.{suffix}"], suffix)
+        for source in ["m.ply", "m.vtp"]:
+            self.expect(0, "convert", source, "n.vert", "n.off", "n.msh", "n.vtp", "n.ply")
+            for suffix in ["vert", "face", "off", "msh", "vtp", "ply"]:
+                self.assertEqual((self.folder / f"n.{suffix}").read_bytes(), FormatTest.made[f"m.{suffix}"], suffix)
+
+    def test_vtp_as_vtk_writes_it(self):
+        reader = vtk.vtkXMLPolyDataReader()
+        reader.SetFileName(str(self.folder / "m.vtp"))
+        writer = vtk.vtkXMLPolyDataWriter()
+        writer.SetInputConnection(reader.GetOutputPort())
+        writer.SetFileName(str(self.folder / "n.vtp"))
+        writer.SetBlockSize(4096)
+        modes = [vtk.vtkXMLWriter.Ascii, vtk.vtkXMLWriter.Binary, vtk.vtkXMLWriter.Appended]
+        for mode, encoded, compressed, little, wide in itertools.product(modes, (0, 1), (0, 1), (0, 1), (0, 1)):
+            with self.subTest(mode=mode, encoded=encoded, compressed=compressed, little=little, wide=wide):
+                writer.SetDataMode(mode)
+                writer.SetEncodeAppendedData(encoded)
+                writer.SetCompressorTypeToZLib() if compressed else writer.SetCompressorTypeToNone()
+                writer.SetByteOrderToLittleEndian() if little else writer.SetByteOrderToBigEndian()
+                writer.SetHeaderTypeToUInt64() if wide else writer.SetHeaderTypeToUInt32()
+                self.assertEqual(writer.Write(), 1)
+                self.expect(0, "convert", "n.vtp", "n.ply")
+                if mode != vtk.vtkXMLWriter.Ascii:  # whose numbers are not all that they were
+                    self.assertEqual((self.folder / "n.ply").read_bytes(), FormatTest.made["m.ply"])
+        writer.SetCompressorTypeToLZ4()
+        writer.Write()
+        self.assertIn("expected vtkZLibDataCompressor", self.expect(BAD_INPUT, "check", "n.vtp").stderr)
 
     def test_between_text_formats(self):
         for name in ["m.vert", "m.obj", "m.msh", "m.smesh", "ascii.ply", "bare.face"]:
