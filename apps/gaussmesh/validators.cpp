@@ -73,7 +73,8 @@ CLI::Validator whole_number_between(int low, int high) {
   return CLI::Validator(
       [low, high](const std::string& text) {
         const std::optional<double> value = finite_number(text);
-        if (value && *value >= low && *value <= high && *value == std::floor(*value)) return std::string();
+        const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
+        if (value && is_whole && *value >= low && *value <= high) return std::string();
         return "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ", got '" +
                text + "'";
       },

@@ -198,7 +198,8 @@ class WrongUse(CliTest):
     def test_values_out_of_range(self):
         bad = ["0", "-1", "nan", "inf", "-inf", "1e400", "x", "0.5x", ""]
         for option, long_name, values in [("--d", "decay", bad), ("--c", "isovalue", bad),
-                                          ("--spacing", "spacing", bad), ("--threads", "threads", ["-1", "1.5", "x"])]:
+                                          ("--spacing", "spacing", bad),
+                                          ("--threads", "threads", ["-1", "1.5", "2.0", "1e1", "x"])]:
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.refused(self.molecule("methanol"), "-o", self.mesh, f"{option}={value}",
@@ -236,6 +237,8 @@ class WrongUse(CliTest):
                 (["check", "a.off", "--json"], "--json: expected FILE behind it, got nothing"),
                 ([molecule, *write, "--threads", "1.5"],
                  "--threads: expected a whole number from 0 to 4096, got '1.5'"),
+                ([molecule, *write, "--threads", "2.0"],
+                 "--threads: expected a whole number from 0 to 4096, got '2.0'"),
                 ([molecule, *write, "--raw=maybe"], "--raw: expected true or false, got 'maybe'"),
                 (["measure", "a.off", "--atom-areas", "a"], "--atom-areas: expected MOL too, got none"),
                 (["convert", "a.off", "b.off", "--probe", 1], "--probe: expected --molecule too, got none"),
