@@ -34,7 +34,7 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
   CLI::Option* molecule =
       command->add_option("--molecule", options.molecule, "molecule of the mesh, for the nearest atoms (default: none)")
           ->type_name("MOL")
-          ->check(file_name());
+          ->check(file_name_of_option());
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
   add_format_options(*command, options.writing, options.no_header);
   command->footer(

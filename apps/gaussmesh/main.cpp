@@ -126,6 +126,7 @@ int run(int argc, char** argv) {
   program
       .set_config("--config", "", "read options from a TOML file; those on the command line come first (default: none)")
       ->type_name("FILE")
+      ->check(file_name_of_option())
       ->group("Running");
   program.config_formatter(std::make_shared<ConfigFile>(program));
   CheckOptions check;

@@ -73,7 +73,7 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
          "--atom-areas", command.atom_areas,
          "write a line for each atom: its number, counted from 1, and the area nearest to it, A^2 (default: none)")
       ->type_name("FILE")
-      ->check(file_name())
+      ->check(file_name_of_option())
       ->needs(molecule);
   for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
   add_json_option(*app, command.json);

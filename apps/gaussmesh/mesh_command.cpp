@@ -237,14 +237,14 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
                   "mesh to write, gzipped if it ends in .gz; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
-      ->check(file_name())
+      ->check(file_name_of_option())
       ->group(group);
   for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(group);
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
       ->type_name("FILE")
-      ->check(file_name())
+      ->check(file_name_of_option())
       ->group(group);
 }
 

@@ -20,7 +20,7 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
               "lines of [RESIDUE] NAME-or-ELEMENT radius (A): radii that come before those of --radii, or stand alone "
               "(default: none)")
           ->type_name("FILE")
-          ->check(file_name()),
+          ->check(file_name_of_option()),
       command
           .add_option("--input-format", options.reading.format,
                       join_names(atom_formats(), ", ") + " (default: by the extension, else PQR)")

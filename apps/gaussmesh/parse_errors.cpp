@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "config_file.h"
@@ -73,24 +72,23 @@ std::string missing_words(const CLI::App& command) {
          (got.empty() ? "nothing" : join_names(quoted(got), ", "));
 }
 
-/// A message of CLI11 `NAME <relation> OTHER` in other words; empty if it is none.
-std::string about_two(const CLI::App& program, const std::string& message) {
-  for (const std::string_view relation : {" requires ", " excludes "}) {
-    const std::size_t at = message.find(relation);
-    if (at == std::string::npos) continue;
-    const std::string name = message.substr(0, at), other = message.substr(at + relation.size());
-    const CLI::Option* const option = called(program).get_option_no_throw(other);
-    const std::string shown = option != nullptr && option->get_positional() ? value_name(*option) : other;
-    return relation == " requires " ? name + ": expected " + shown + " too, got none"
-                                    : "expected " + name + " or " + shown + ", got both";
-  }
-  return "";
+/// CLI11's message `NAME requires OTHER` or `NAME excludes OTHER` in other words; empty if the error is neither.
+std::string about_two(const CLI::App& program, const CLI::ParseError& error) {
+  const bool is_lacking = dynamic_cast<const CLI::RequiresError*>(&error) != nullptr;
+  if (!is_lacking && dynamic_cast<const CLI::ExcludesError*>(&error) == nullptr) return "";
+  const std::string message = error.what();
+  const std::string name = message.substr(0, message.find(' '));
+  const std::string other = message.substr(message.rfind(' ') + 1);
+  const CLI::Option* const option = called(program).get_option_no_throw(other);
+  const std::string shown = option != nullptr && option->get_positional() ? value_name(*option) : other;
+  return is_lacking ? name + ": expected " + shown + " too, got none"
+                    : "expected " + name + " or " + shown + ", got both";
 }
 
 /// What CLI11 says, in the program's words where it is known what that is about.
 std::string in_own_words(const CLI::App& program, const CLI::ParseError& error) {
   const std::string message = error.what();
-  const std::string two = about_two(program, message);
+  const std::string two = about_two(program, error);
   if (!two.empty()) return two;
   if (dynamic_cast<const CLI::FileError*>(&error) != nullptr)
     return program.get_config_ptr()->as<std::string>() + ": expected a readable file of options, got none";

@@ -85,7 +85,7 @@ void add_json_option(CLI::App& command, std::optional<std::string>& file) {
   command
       .add_option("--json", file, "write what is found as JSON; -: to the terminal, and nothing else (default: none)")
       ->type_name("FILE")
-      ->check(file_name());
+      ->check(file_name_of_option());
 }
 
 }  // namespace gaussmesh::app

@@ -86,6 +86,16 @@ CLI::Validator file_name() {
       [](const std::string& text) { return text.empty() ? "expected the name of a file, got ''" : std::string(); }, "");
 }
 
+CLI::Validator file_name_of_option() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        if (!text.empty() && (text[0] != '-' || text == "-")) return std::string();
+        return "expected the name of a file, got '" + text + "'" +
+               (text.empty() ? "" : "; if it is one, write ./" + text);
+      },
+      "");
+}
+
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](const std::string& text) {

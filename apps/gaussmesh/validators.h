@@ -29,6 +29,9 @@ CLI::Validator number_from(double low);
 /// Takes every text but none, which scripts give where a variable of theirs is not set.
 CLI::Validator file_name();
 
+/// The same behind an option: what begins with a dash, but for `-`, is the next option, and a name has been forgotten.
+CLI::Validator file_name_of_option();
+
 /// Takes sizes of memory from `least` (bytes) on: whole numbers of bytes, or numbers of K, M, G or T of 1024, 1024^2,
 /// ... bytes, with or without a B or iB behind. Makes bytes of them.
 CLI::Validator memory_size(std::uint64_t least);
