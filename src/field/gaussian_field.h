@@ -24,6 +24,9 @@ class GaussianField {
   double decay() const { return decay_; }
   std::size_t size() const { return atoms_.x.size(); }
 
+  /// All atoms, in the order of the tree.
+  const WeightedCentres& atoms() const { return atoms_; }
+
   /// A box outside which phi < c, proven.
   Box bounding_box() const { return bounds_; }
 

@@ -18,13 +18,13 @@ namespace {
 constexpr double kSplitFactor = 1.45;
 constexpr double kCollapseFactor = 0.65;
 
-/// Edge of the blocks in spacings: a few thousand triangles each, which fit into a core's cache.
+/// Edge of the blocks in cells of the trace: a few thousand triangles each, which fit into a core's cache.
 constexpr double kBlockEdge = 32.0;
 
-/// Where the surface is much finer than the spacing blocks are smaller, to have as few triangles: no more than so many
-/// mean edges, but wide enough for triangles that are as large as the spacing.
+/// Where the surface is much finer than the cells blocks are smaller, to have as few triangles: no more than so many
+/// mean edges, but wide enough for triangles that are as large as the cells.
 constexpr double kBlockEdgeInEdges = 96.0;
-constexpr double kLeastBlockEdge = 6.0;  ///< spacings
+constexpr double kLeastBlockEdge = 6.0;  ///< cells
 
 /// Where curvature asks for small triangles elsewhere, the others may be larger than the spacing by up to this
 /// factor, so that the mean edge is what was asked for.
@@ -56,9 +56,9 @@ constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
 
-/// Where more of the vertices than this are bad and larger boxes bring nothing, the surface is finer than triangles may
-/// be.
-constexpr double kManyBad = 0.02;
+/// Where many are bad and larger boxes do not leave fewer than this part of them, the surface is finer than triangles
+/// may be.
+constexpr double kGain = 0.9;
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -91,8 +91,8 @@ double mean_edge(const WholeMesh& mesh, int threads) {
 }
 
 /// Edge (A) of blocks for a mesh as it was traced.
-double block_edge(double spacing, double mean_edge) {
-  return std::clamp(kBlockEdgeInEdges * mean_edge, kLeastBlockEdge * spacing, kBlockEdge * spacing);
+double block_edge(double cell, double mean_edge) {
+  return std::clamp(kBlockEdgeInEdges * mean_edge, kLeastBlockEdge * cell, kBlockEdge * cell);
 }
 
 std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
@@ -180,10 +180,10 @@ std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_fie
 }  // namespace
 
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                                Guarding guarding, int threads,
+                                Guarding guarding, ManyBad many_bad, int threads,
                                 const std::function<void(double share_done)>& on_progress) {
   WholeMesh mesh = start_with(std::move(traced), targets.spacing);
-  const double edge = block_edge(targets.spacing, mean_edge(mesh, threads));
+  const double edge = block_edge(targets.cell, mean_edge(mesh, threads));
   SizeTargets now = targets;
   now.largest = targets.spacing;
   double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
@@ -213,19 +213,20 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
     }
   }
   std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
-  bool is_mended = false;
+  bool is_mended = false, is_left = false;
   std::size_t fewest = mesh.at.size();
   int last_gain = 0;
   for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
     if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
     is_mended = bad.empty();
     if (is_mended) break;
-    if (bad.size() < fewest) {
+    if (static_cast<double>(bad.size()) < kGain * static_cast<double>(fewest)) {
       fewest = bad.size();
       last_gain = i;
     }
     const bool are_many = static_cast<double>(bad.size()) > kManyBad * static_cast<double>(mesh.at.size());
-    if (are_many && i - last_gain > kSweepsPerDoubling) break;
+    is_left = are_many && many_bad == ManyBad::kLeave;
+    if (is_left || (are_many && i - last_gain > kSweepsPerDoubling)) break;
     const std::vector<Box> boxes =
         take_boxes_round(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling), kMostHalfEdge * targets.spacing);
     std::vector<std::vector<BadPlace>> left(boxes.size());
@@ -234,11 +235,13 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
-  std::vector<Vec3> thin;
-  if (!is_mended) {
-    for (const std::uint32_t v : find_thin_vertices(mesh, threads)) thin.push_back(mesh.at[v]);
+  std::vector<Vec3> left;
+  if (is_left) {
+    for (const BadPlace& place : bad) left.push_back(place.at);
+  } else if (!is_mended) {
+    for (const std::uint32_t v : find_thin_vertices(mesh, threads)) left.push_back(mesh.at[v]);
   }
-  return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(thin)};
+  return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(left)};
 }
 
 }  // namespace gaussmesh

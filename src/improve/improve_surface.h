@@ -20,8 +20,18 @@ struct SurfaceMesh {
 /// What improvement made of a mesh.
 struct ImprovedSurface {
   SurfaceMesh surface;
-  std::vector<Vec3> thin;  ///< corners of the triangles that it left with an angle below 30 degrees
+  /// Corners of the triangles that were left with an angle below 30 degrees; of all bad ones with ManyBad::kLeave.
+  std::vector<Vec3> left;
 };
+
+/// What to do where more than kManyBad of the vertices are at bad triangles after the sweeps over the whole mesh: mostly
+/// the trace has bridged what is finer than its cells, and that of finer cells is mended in a fraction of the time.
+enum class ManyBad {
+  kLeave,  ///< to a finer trace
+  kMend,   ///< as long as it helps
+};
+
+inline constexpr double kManyBad = 0.02;
 
 /// Makes the triangles of `traced` nearly equilateral with edges of about the spacing, smaller where the surface
 /// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt
@@ -35,7 +45,7 @@ struct ImprovedSurface {
 /// @param on_progress  called after each block, on any thread
 /// Cost: about twenty sums over the atoms nearby for each vertex.
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
-                                Guarding guarding, int threads,
+                                Guarding guarding, ManyBad many_bad, int threads,
                                 const std::function<void(double share_done)>& on_progress = {});
 
 /// A; beyond it coordinates of neighbouring triangles differ by more than exact signs allow for

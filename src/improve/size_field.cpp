@@ -19,14 +19,6 @@ double least_size(double curvature, const SizeTargets& targets) {
   return std::max(std::min(kLeastSize * targets.spacing, kTurnPerEdge / curvature), kLeastSizeOfAll * targets.spacing);
 }
 
-double wanted_size(double curvature, const SizeTargets& targets) {
-  double size = std::min(kTurnPerEdge / curvature, targets.largest);
-  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
-  // surface; edges may be up to half as long again as wanted.
-  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
-  return std::max(size, least_size(curvature, targets));
-}
-
 /// Each edge once; those on the boundary, whose other half is kNone, have one only.
 inline bool is_first_half(const HalfEdgeMesh& c, Index h) { return h < c.twin(h) && c.has_triangle(h / 3); }
 
@@ -90,6 +82,14 @@ class GrowthLimit {
 };
 
 }  // namespace
+
+double wanted_size(double curvature, const SizeTargets& targets) {
+  double size = std::min(kTurnPerEdge / curvature, targets.largest);
+  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
+  // surface; edges may be up to half as long again as wanted.
+  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
+  return std::max(size, least_size(curvature, targets));
+}
 
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets) {
   const HalfEdgeMesh& c = mesh.connectivity;

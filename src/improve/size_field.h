@@ -10,6 +10,7 @@ struct SizeTargets {
   double spacing = 0.5;    ///< A: the wanted mean edge
   double tolerance = 0.0;  ///< A: farthest that triangles may be from the surface; 0: no limit
   double largest = 0.5;    ///< A: the wanted edge where nothing asks for less
+  double cell = 0.5;       ///< A: the cells that the surface was traced with
 };
 
 /// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at
@@ -32,9 +33,12 @@ inline constexpr double kLeastSize = 0.01;
 /// places, and they are small.
 inline constexpr double kLeastSizeOfAll = 2e-5;
 
-/// Wanted edges (A) at the block's active vertices: targets.largest, less where the curvature asks for it - an edge
-/// turns the normal by no more than kTurnPerEdge, and a triangle of that edge stays within the tolerance - and
-/// growing by no more than kGrowth per A from there. Sizes of vertices outside the block are taken as they are.
+/// The wanted edge (A) at a place by its curvature (1/A) alone: it turns the normal by no more than kTurnPerEdge, a
+/// triangle of that edge stays within the tolerance, and it is no longer than targets.largest.
+double wanted_size(double curvature, const SizeTargets& targets);
+
+/// Wanted edges (A) at the block's active vertices: wanted_size(), and growing by no more than kGrowth per A from where
+/// it is less. Sizes of vertices outside the block are taken as they are.
 /// Cost: one sum over the atoms nearby for each vertex whose curvature is not known.
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 

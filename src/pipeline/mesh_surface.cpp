@@ -13,6 +13,7 @@
 #include "field/gaussian_field.h"
 #include "gaussmesh/error.h"
 #include "gaussmesh/two_sided_distance.h"
+#include "improve/cell_size.h"
 #include "pipeline/check_options.h"
 #include "pipeline/critical_places.h"
 #include "pipeline/trace_surface.h"
@@ -134,8 +135,10 @@ class SurfaceMesher {
     constexpr int kMostAttempts = 4;
     SizeTargets targets;
     targets.spacing = options_.spacing;
+    targets.largest = options_.spacing;
     targets.tolerance = options_.tolerance;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      demands_.spacing = targets.cell = suitable_cell_size(field_, targets);
       improve_until_no_angle_is_small(targets);
       if (!is_good()) return;
       if (options_.measure_distance || options_.tolerance > 0.0) measure_distance();
@@ -146,20 +149,20 @@ class SurfaceMesher {
   }
 
   /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is
-  /// finer than they are cannot always be mended, but those of a finer trace can.
+  /// finer than they are cannot always be mended, but those of a finer trace can. Where many are, that is not waited
+  /// for.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
-    constexpr int kLevels[] = {3, 5};   // one after the other
-    constexpr double kMostThin = 0.02;  // of the vertices; more are left where no triangles are small enough
+    constexpr int kLevels[] = {3, 5};  // one after the other
     for (;;) {
-      const int before = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
-      const int* level = std::upper_bound(std::begin(kLevels), std::end(kLevels), before);
-      std::vector<Vec3> thin = improve(trace(), targets, Guarding::kCloseSheets);
-      if (!is_good()) thin = improve(trace(), targets, Guarding::kEverywhere);
-      const bool is_finer = before == 0 || !demands_.fine_places.empty();
-      const bool are_few =
-          static_cast<double>(thin.size()) <= kMostThin * static_cast<double>(result_.mesh.vertices.size());
-      if (!is_good() || thin.empty() || !are_few || !is_finer || level == std::end(kLevels)) return;
-      for (const Vec3& place : thin) demands_.fine_places.push_back({place, *level});
+      std::vector<Vec3> bad = improve(trace(), targets, Guarding::kCloseSheets);
+      if (!is_good()) bad = improve(trace(), targets, Guarding::kEverywhere);
+      const int level = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
+      const int* next = std::upper_bound(std::begin(kLevels), std::end(kLevels), level);
+      const double vertices = static_cast<double>(result_.mesh.vertices.size());
+      const bool are_many = static_cast<double>(bad.size()) > kManyBad * vertices;
+      if (!is_good() || bad.empty() || !can_be_finer_ || next == std::end(kLevels)) return;
+      if (are_many && level > 0) return;  // the surface is finer than triangles may be
+      for (const Vec3& place : bad) demands_.fine_places.push_back({place, *next});
     }
   }
 
@@ -203,23 +206,31 @@ class SurfaceMesher {
 
   /// @return whether there was anything to leave out
   bool demand_less() {
-    if (demands_.fine_places.empty()) return std::exchange(demands_.for_improvement, false);
-    demands_.fine_places.clear();
-    return true;
+    can_be_finer_ = false;
+    if (!demands_.fine_places.empty()) {
+      demands_.fine_places.clear();
+      return true;
+    }
+    if (demands_.spacing < options_.spacing) {
+      demands_.spacing = options_.spacing;
+      return true;
+    }
+    return std::exchange(demands_.for_improvement, false);
   }
 
   /// Improves a traced mesh and has it judged. @return the corners of triangles with small angles that are left
   std::vector<Vec3> improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
     const std::int64_t chi = euler_number(traced.mesh);
+    const ManyBad many_bad = can_be_finer_ && demands_.fine_places.empty() ? ManyBad::kLeave : ManyBad::kMend;
     const GaussianField used(atoms_, options_.decay, result_.report.isovalue_used);
     ImprovedSurface improved =
-        improve_surface(std::move(traced), used, targets, guarding, threads_, options_.on_improving);
+        improve_surface(std::move(traced), used, targets, guarding, many_bad, threads_, options_.on_improving);
     has_same_topology_ = euler_number(improved.surface.mesh) == chi;
     take_mesh(std::move(improved.surface));
     watch_.finished("improve");
     result_.report.check = check_mesh(result_.mesh);
     watch_.finished("verify");
-    return std::move(improved.thin);
+    return std::move(improved.left);
   }
 
   void take_mesh(SurfaceMesh surface) {
@@ -262,6 +273,7 @@ class SurfaceMesher {
   Stopwatch watch_;
   const GaussianField field_;
   TraceDemands demands_;
+  bool can_be_finer_ = true;  ///< no trace of smaller cells has been degenerate
   bool has_same_topology_ = true;
 };
 

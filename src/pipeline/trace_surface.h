@@ -19,7 +19,7 @@ struct TraceResult {
   std::size_t cells = 0;
   std::size_t cells_split = 0;
   std::size_t cells_cut_by_folds = 0;
-  double cell_size = 0.0;     ///< A: the spacing, but for a rounding
+  double cell_size = 0.0;     ///< A: as demanded, but for a rounding
   double smallest_box = 0.0;  ///< A
 };
 

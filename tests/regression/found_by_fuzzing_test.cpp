@@ -78,3 +78,14 @@ TEST_CASE("where the finer cells for improvement cannot be traced the others are
   CHECK(result.report.certified);
   CHECK(topology(result) == std::vector<Piece>{{0, false}});
 }
+
+TEST_CASE(
+    "creases between large spheres that the first trace bridges are traced anew, however many triangles they have") {
+  // x, y, z, r; the last is a neck on a point of the lattice.
+  const auto smallest_angle = [](const std::vector<Atom>& atoms, double decay, double isovalue, double spacing) {
+    return mesh_surface(atoms, improved(decay, isovalue, spacing)).report.check.quality.min_angle_deg;
+  };
+  CHECK(smallest_angle({{0, 0, 0, 40, 0}, {50, 0, 0, 40, 0}}, 0.6, 1.7, 5.0) > 30.0);
+  CHECK(smallest_angle({{0, 0, 0, 30, 0}, {30, 0, 0, 30, 0}}, 0.6, 1.7, 5.0) > 30.0);
+  CHECK(smallest_angle({{0.186, 0.207, 0.118, 2, 0}, {4.186, 0.207, 0.118, 2, 0}}, 10.0, 1.0, 0.5) > 30.0);
+}

@@ -138,7 +138,7 @@ TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only"
   const GaussianField field(atoms, 0.6, 1.7);
   SizeTargets targets;
   const ImprovedSurface guarded =
-      improve_surface({traced.mesh, traced.normals}, field, targets, Guarding::kEverywhere, 1);
+      improve_surface({traced.mesh, traced.normals}, field, targets, Guarding::kEverywhere, ManyBad::kMend, 1);
   const MeshCheck check = check_mesh(guarded.surface.mesh);
   CHECK(check.fit_for_solver());
   CHECK(check.chi == traced.report.check.chi);

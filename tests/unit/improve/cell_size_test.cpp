@@ -1,0 +1,54 @@
+// Cells are as large as the triangles to come allow.
+#include "improve/cell_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch2.h"
+#include "support/meshing.h"
+
+using namespace gaussmesh;
+using namespace gaussmesh::testing;
+
+namespace {
+
+constexpr double kDecay = 0.6;
+
+double cell_for(const std::vector<Atom>& atoms, double spacing, double tolerance = 0.0) {
+  return suitable_cell_size(GaussianField(atoms, kDecay, 1.0), {spacing, tolerance, spacing, spacing});
+}
+
+}  // namespace
+
+TEST_CASE("where the spacing is what limits triangles it is the size of the cells") {
+  CHECK(cell_for({{1, 2, 3, 2.0, 0}}, 0.5) == 0.5);
+  CHECK(cell_for(atom_ring(12, 5.0, 1.5), 0.2) == 0.2);
+}
+
+TEST_CASE("on a sphere cells follow the size that its curvature or the tolerance asks for") {
+  const double radius = 2.0, tolerance = 1e-3;
+  const std::vector<Atom> sphere = {{1, 2, 3, radius, 0}};
+  const double by_curvature = cell_for(sphere, 100.0), by_tolerance = cell_for(sphere, 1.0, tolerance);
+  CHECK(by_curvature < 100.0);
+  CHECK(by_curvature / by_tolerance ==
+        Approx(kTurnPerEdge * radius / std::sqrt(2.5 * tolerance * radius)).epsilon(1e-3));
+  CHECK(cell_for({{1, 2, 3, 2.0 * radius, 0}}, 100.0) == Approx(2.0 * by_curvature).epsilon(1e-3));
+}
+
+TEST_CASE("large spheres count by their area: small ones beside them do not make cells small") {
+  std::vector<Atom> atoms = {{0, 0, 0, 50.0, 0}};
+  for (int i = 0; i < 100; ++i) atoms.push_back({60.0 + 4.0 * i, 0, 0, 1.5, 0});
+  CHECK(cell_for(atoms, 20.0) == 20.0);
+}
+
+TEST_CASE("the order of the atoms does not matter") {
+  std::vector<Atom> atoms = atom_ring(12, 5.0, 1.5);
+  const double cell = cell_for(atoms, 5.0);
+  CHECK(cell < 5.0);
+  std::reverse(atoms.begin(), atoms.end());
+  CHECK(cell_for(atoms, 5.0) == cell);
+}
+
+TEST_CASE("where no place of the surface is found the spacing is left as it is") {
+  CHECK(cell_for({{0, 0, 0, 0.0, 0}, {1, 0, 0, 0.0, 0}}, 5.0) == 5.0);
+}
