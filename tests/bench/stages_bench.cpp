@@ -176,7 +176,8 @@ void improve_molecule(benchmark::State& state, const Workload& work) {
     state.PauseTiming();
     SurfaceMesh traced = work.traced;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(improve_surface(std::move(traced), work.field, targets, Guarding::kCloseSheets, ManyBad::kMend, kThreads));
+    benchmark::DoNotOptimize(
+        improve_surface(std::move(traced), work.field, targets, Guarding::kCloseSheets, ManyBad::kMend, kThreads));
   }
   count_items(state, work.improved.mesh.triangles.size());
 }

@@ -83,7 +83,7 @@ TEST_CASE(
     "creases between large spheres that the first trace bridges are traced anew, however many triangles they have") {
   // x, y, z, r; the last is a neck on a point of the lattice.
   const auto smallest_angle = [](const std::vector<Atom>& atoms, double decay, double isovalue, double spacing) {
-    return mesh_surface(atoms, improved(decay, isovalue, spacing)).report.check.quality.min_angle_deg;
+    return mesh_surface(atoms, improved(decay, isovalue, spacing)).report.check.min_angle_deg;
   };
   CHECK(smallest_angle({{0, 0, 0, 40, 0}, {50, 0, 0, 40, 0}}, 0.6, 1.7, 5.0) > 30.0);
   CHECK(smallest_angle({{0, 0, 0, 30, 0}, {30, 0, 0, 30, 0}}, 0.6, 1.7, 5.0) > 30.0);
