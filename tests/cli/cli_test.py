@@ -424,6 +424,8 @@ class Surfaces(CliTest):
         self.assertEqual(wanted, [kept["components"][i]["volume_A3"] for i in (0, 2, 1)], "outsides first")
         for got, volume in zip(volumes, wanted):
             self.assertAlmostEqual(got, volume, places=6)
+        self.assertNotIn("cavity by itself", self.expect(0, "check", "out_1.off").stdout)
+        self.assertIn("is this a cavity by itself", self.expect(CHECK_FAILED, "check", "out_3.off").stdout)
 
 
 class Running(CliTest):
