@@ -24,14 +24,15 @@ struct ImprovedSurface {
   std::vector<Vec3> left;
 };
 
-/// What to do where more than kManyBad of the vertices are at bad triangles after the sweeps over the whole mesh: mostly
-/// the trace has bridged what is finer than its cells, and that of finer cells is mended in a fraction of the time.
+/// What to do where more than this part of the vertices is at bad triangles in spite of the sweeps over the whole mesh:
+/// mostly the trace has bridged what is finer than its cells, and that of finer cells is mended in a fraction of the
+/// time; or else the surface is finer than triangles may be.
+inline constexpr double kManyBad = 0.2;
+
 enum class ManyBad {
   kLeave,  ///< to a finer trace
   kMend,   ///< as long as it helps
 };
-
-inline constexpr double kManyBad = 0.02;
 
 /// Makes the triangles of `traced` nearly equilateral with edges of about the spacing, smaller where the surface
 /// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt

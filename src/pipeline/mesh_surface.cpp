@@ -153,15 +153,16 @@ class SurfaceMesher {
   /// for.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
     constexpr int kLevels[] = {3, 5};  // one after the other
+    constexpr double kMany = 0.02;     // of the vertices; where more are left no triangles are small enough
     for (;;) {
       std::vector<Vec3> bad = improve(trace(), targets, Guarding::kCloseSheets);
       if (!is_good()) bad = improve(trace(), targets, Guarding::kEverywhere);
       const int level = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
       const int* next = std::upper_bound(std::begin(kLevels), std::end(kLevels), level);
       const double vertices = static_cast<double>(result_.mesh.vertices.size());
-      const bool are_many = static_cast<double>(bad.size()) > kManyBad * vertices;
+      const bool are_many = static_cast<double>(bad.size()) > kMany * vertices;
       if (!is_good() || bad.empty() || !can_be_finer_ || next == std::end(kLevels)) return;
-      if (are_many && level > 0) return;  // the surface is finer than triangles may be
+      if (are_many && level > 0) return;
       for (const Vec3& place : bad) demands_.fine_places.push_back({place, *next});
     }
   }

@@ -89,3 +89,13 @@ TEST_CASE(
   CHECK(smallest_angle({{0, 0, 0, 30, 0}, {30, 0, 0, 30, 0}}, 0.6, 1.7, 5.0) > 30.0);
   CHECK(smallest_angle({{0.186, 0.207, 0.118, 2, 0}, {4.186, 0.207, 0.118, 2, 0}}, 10.0, 1.0, 0.5) > 30.0);
 }
+
+TEST_CASE("where one vertex in twenty is at a bad triangle mending goes on until angles are good") {
+  for (const double shift : {0.0, 0.3, -1.7, 2.9}) {
+    CAPTURE(shift);
+    const std::vector<Atom> atoms = {{2.32 + shift, 3.44 - shift, 1.88, 1.44, 0},
+                                     {1.0 + shift, 0.84 - shift, 0.11, 1.92, 0},
+                                     {3.44 + shift, 2.18 - shift, 1.25, 1.31, 0}};
+    CHECK(mesh_surface(atoms, improved(8.0, 1.0, 1.5)).report.check.min_angle_deg > 30.0);
+  }
+}
