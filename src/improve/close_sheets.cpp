@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/simd.h"
+#include "improve/float_box.h"
 
 namespace gaussmesh {
 namespace {
@@ -51,21 +52,6 @@ void mark_close(VertexArrays& a, std::size_t some, std::size_t others) {
   }
   for (std::size_t i = 0; i < kLeafSize; ++i) a.is_close[others + i] |= close[i];
 }
-
-/// A box of places or of directions.
-struct FloatBox {
-  std::array<float, 3> lo{kFar, kFar, kFar}, hi{-kFar, -kFar, -kFar};
-
-  void add(const FloatBox& other) {
-    for (int k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], other.lo[k]);
-      hi[k] = std::max(hi[k], other.hi[k]);
-    }
-  }
-
- private:
-  static constexpr float kFar = std::numeric_limits<float>::max();
-};
 
 /// Least scalar product of a vector in each of two boxes.
 float least_cosine(const FloatBox& a, const FloatBox& b) {

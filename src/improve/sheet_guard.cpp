@@ -5,6 +5,8 @@
 namespace gaussmesh {
 namespace {
 
+constexpr double kLeastWidth = 1e-6;  ///< A, of the cube
+
 /// Marks the corners of the triangles that have a vertex with another sheet near.
 void mark_close_sheets(BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
@@ -23,7 +25,7 @@ void mark_close_sheets(BlockMesh& mesh) {
 }  // namespace
 
 SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : guarding_(guarding) {
-  lay_grid(mesh);
+  find_cube(mesh);
   if (guarding == Guarding::kEverywhere) {
     std::fill(mesh.is_guarded.begin(), mesh.is_guarded.end(), std::uint8_t{1});
   } else {
@@ -37,10 +39,7 @@ SheetGuard::SheetGuard(BlockMesh& mesh, Guarding guarding) : guarding_(guarding)
   }
 }
 
-/// Round what of the mesh is in the block, with cells of about the size of the mean triangle where the surface crosses
-/// it once.
-void SheetGuard::lay_grid(const BlockMesh& mesh) {
-  constexpr int kLeastCells = 4, kMostCells = 48;
+void SheetGuard::find_cube(const BlockMesh& mesh) {
   Vec3 lo = mesh.box.hi, hi = mesh.box.lo;
   for (const Vec3& p : mesh.at) {
     if (!mesh.contains(p)) continue;
@@ -49,11 +48,24 @@ void SheetGuard::lay_grid(const BlockMesh& mesh) {
       hi[k] = std::max(hi[k], p[k]);
     }
   }
-  const double width = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
-  const double across = std::sqrt(0.5 * mesh.connectivity.triangles());
   lo_ = lo;
-  cells_ = static_cast<int>(std::clamp(across, double(kLeastCells), double(kMostCells)));
-  cells_per_angstrom_ = width > 0.0 ? static_cast<float>(cells_ / width) : 1.0f;
+  width_ = static_cast<float>(std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2], kLeastWidth}));
+}
+
+SheetTree::Item SheetGuard::item_of(const BlockMesh& mesh, const Triangle& t) const {
+  constexpr float kSlack = 1e-5f;  // relative: two roundings, and the subtraction of the corner
+  SheetTree::Item item{};
+  for (int k = 0; k < 3; ++k) {
+    const auto [least, most] = std::minmax({mesh.at[t[0]][k], mesh.at[t[1]][k], mesh.at[t[2]][k]});
+    const auto lo = static_cast<float>(least - lo_[k]), hi = static_cast<float>(most - lo_[k]);
+    item.box.lo[k] = lo - kSlack * std::abs(lo);
+    item.box.hi[k] = hi + kSlack * std::abs(hi);
+  }
+  if (guarding_ == Guarding::kEverywhere) return item;
+  for (const std::uint32_t v : t) {
+    for (int k = 0; k < 3; ++k) item.normal[k] += mesh.normal[v][k] * (1.0f / 3.0f);
+  }
+  return item;
 }
 
 bool SheetGuard::pair_may_meet(const BlockMesh& mesh, const Triangle& s, const Triangle& t) {
@@ -65,24 +77,17 @@ bool SheetGuard::pair_may_meet(const BlockMesh& mesh, const Triangle& s, const T
 
 void SheetGuard::insert(const BlockMesh& mesh, std::uint32_t triangle) {
   const Triangle t = mesh.connectivity.triangle(triangle);
-  if (is_guarded(mesh, t)) enter(mesh, t, triangle);
+  if (!is_guarded(mesh, t)) return;
+  if (entry_of_.size() <= triangle) entry_of_.resize(mesh.connectivity.triangles(), kNoEntry);
+  if (entry_of_[triangle] != kNoEntry) return tree_->change(entry_of_[triangle], item_of(mesh, t));
+  entry_of_[triangle] = static_cast<std::uint32_t>(triangle_of_.size());
+  enter(mesh, t, triangle);
 }
 
 void SheetGuard::enter(const BlockMesh& mesh, const Triangle& corners, std::uint32_t triangle) {
-  if (head_.empty()) head_.assign(static_cast<std::size_t>(cells_ * cells_ * cells_), -1);
-  const SmallBox box = box_of(mesh, corners);
-  const Normal normal = mean_normal(mesh, corners);
-  visit_cells(box, [&](std::size_t cell) {
-    for (std::int32_t n = head_[cell]; n >= 0; n = nodes_[n].next) {
-      if (nodes_[n].triangle != triangle) continue;
-      nodes_[n].box = box;
-      nodes_[n].normal = normal;
-      return false;
-    }
-    nodes_.push_back({triangle, head_[cell], box, normal});
-    head_[cell] = static_cast<std::int32_t>(nodes_.size()) - 1;
-    return false;
-  });
+  if (!tree_) tree_.emplace(width_);
+  tree_->add(item_of(mesh, corners));
+  triangle_of_.push_back(triangle);
 }
 
 }  // namespace gaussmesh
