@@ -185,7 +185,6 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
   WholeMesh mesh = start_with(std::move(traced), targets.spacing);
   const double edge = block_edge(targets.cell, mean_edge(mesh, threads));
   SizeTargets now = targets;
-  now.largest = targets.spacing;
   double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
   for (const Sweep& sweep : kSweeps) all += sweep.effort;
   const auto run = [&](MeshBlocks blocks, double effort, const auto& work) {
@@ -207,8 +206,8 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
     mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), sweep.effort,
                [&](std::size_t, BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
     if (number <= kSweepsForLargest) {
-      const double wish = now.largest * targets.spacing / mean_edge(mesh, threads);
-      now.largest = std::clamp(wish, targets.spacing, kLargestFactor * targets.spacing);
+      const double wish = now.largest() / mean_edge(mesh, threads);
+      now.largest_factor = std::clamp(wish, 1.0, kLargestFactor);
       if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
     }
   }

@@ -42,7 +42,7 @@ enum class ManyBad {
 /// are still bad (bad_places.h): the same bits for any number of threads.
 ///
 /// @param traced   closed, oriented, embedded
-/// @param targets  spacing at most kLargestSpacing; `largest` is found here
+/// @param targets  spacing at most kLargestSpacing; `largest_factor` is found here
 /// @param on_progress  called after each block, on any thread
 /// Cost: about twenty sums over the atoms nearby for each vertex.
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,

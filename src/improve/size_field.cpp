@@ -84,7 +84,7 @@ class GrowthLimit {
 }  // namespace
 
 double wanted_size(double curvature, const SizeTargets& targets) {
-  double size = std::min(kTurnPerEdge / curvature, targets.largest);
+  double size = std::min(kTurnPerEdge / curvature, targets.largest());
   // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
   // surface; edges may be up to half as long again as wanted.
   if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));

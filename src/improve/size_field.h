@@ -7,10 +7,12 @@ namespace gaussmesh {
 
 /// What is asked of the sizes of triangles.
 struct SizeTargets {
-  double spacing = 0.5;    ///< A: the wanted mean edge
-  double tolerance = 0.0;  ///< A: farthest that triangles may be from the surface; 0: no limit
-  double largest = 0.5;    ///< A: the wanted edge where nothing asks for less
-  double cell = 0.5;       ///< A: the cells that the surface was traced with
+  double spacing = 0.5;         ///< A: the wanted mean edge
+  double tolerance = 0.0;       ///< A: farthest that triangles may be from the surface; 0: no limit
+  double cell = 0.5;            ///< A: the cells that the surface was traced with
+  double largest_factor = 1.0;  ///< spacings: the wanted edge where nothing asks for less
+
+  double largest() const { return largest_factor * spacing; }
 };
 
 /// Angle (radians) between the normals at the ends of an edge of the wanted size, at most, by the curvature at
@@ -34,7 +36,7 @@ inline constexpr double kLeastSize = 0.01;
 inline constexpr double kLeastSizeOfAll = 2e-5;
 
 /// The wanted edge (A) at a place by its curvature (1/A) alone: it turns the normal by no more than kTurnPerEdge, a
-/// triangle of that edge stays within the tolerance, and it is no longer than targets.largest.
+/// triangle of that edge stays within the tolerance, and it is no longer than targets.largest().
 double wanted_size(double curvature, const SizeTargets& targets);
 
 /// Wanted edges (A) at the block's active vertices: wanted_size(), and growing by no more than kGrowth per A from where

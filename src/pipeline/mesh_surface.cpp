@@ -135,7 +135,6 @@ class SurfaceMesher {
     constexpr int kMostAttempts = 4;
     SizeTargets targets;
     targets.spacing = options_.spacing;
-    targets.largest = options_.spacing;
     targets.tolerance = options_.tolerance;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
       demands_.spacing = targets.cell = suitable_cell_size(field_, targets);
@@ -148,23 +147,32 @@ class SurfaceMesher {
     }
   }
 
-  /// Where small angles are left the surface is traced anew with smaller cells there: triangles that bridge what is
-  /// finer than they are cannot always be mended, but those of a finer trace can. Where many are, that is not waited
-  /// for.
+  /// Leaves a mesh with its judgement. One with small angles is traced anew as long as that may help, one that is not
+  /// good is improved once more with exact signs for every change.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
-    constexpr int kLevels[] = {3, 5};  // one after the other
-    constexpr double kMany = 0.02;     // of the vertices; where more are left no triangles are small enough
-    for (;;) {
-      std::vector<Vec3> bad = improve(trace(), targets, Guarding::kCloseSheets);
-      if (!is_good()) bad = improve(trace(), targets, Guarding::kEverywhere);
-      const int level = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
-      const int* next = std::upper_bound(std::begin(kLevels), std::end(kLevels), level);
-      const double vertices = static_cast<double>(result_.mesh.vertices.size());
-      const bool are_many = static_cast<double>(bad.size()) > kMany * vertices;
-      if (!is_good() || bad.empty() || !can_be_finer_ || next == std::end(kLevels)) return;
-      if (are_many && level > 0) return;
-      for (const Vec3& place : bad) demands_.fine_places.push_back({place, *next});
+    for (Guarding guarding = Guarding::kCloseSheets;; guarding = Guarding::kEverywhere) {
+      while (demand_finer(improve(trace(), targets, guarding))) {
+      }
+      result_.report.check = check_mesh(result_.mesh);
+      watch_.finished("verify");
+      if (is_good() || guarding == Guarding::kEverywhere) return;
     }
+  }
+
+  /// Smaller cells at the corners of triangles with small angles: those that bridge what is finer than they are cannot
+  /// always be mended, but those of a finer trace can.
+  /// @return whether there is anything that may help
+  bool demand_finer(const std::vector<Vec3>& bad) {
+    constexpr int kLevels[] = {3, 5};  // one after the other
+    constexpr double kMany = 0.02;     // of the vertices; where more are left of a finer trace triangles cannot be
+                                       // small enough
+    const int level = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
+    const int* next = std::upper_bound(std::begin(kLevels), std::end(kLevels), level);
+    if (bad.empty() || !can_be_finer_ || next == std::end(kLevels)) return false;
+    const double vertices = static_cast<double>(result_.mesh.vertices.size());
+    if (level > 0 && static_cast<double>(bad.size()) > kMany * vertices) return false;
+    for (const Vec3& place : bad) demands_.fine_places.push_back({place, *next});
+    return true;
   }
 
   /// The traced surface, with the certificate in the report.
@@ -219,7 +227,7 @@ class SurfaceMesher {
     return std::exchange(demands_.for_improvement, false);
   }
 
-  /// Improves a traced mesh and has it judged. @return the corners of triangles with small angles that are left
+  /// Improves a traced mesh. @return the corners of triangles with small angles that are left
   std::vector<Vec3> improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
     const std::int64_t chi = euler_number(traced.mesh);
     const ManyBad many_bad = can_be_finer_ && demands_.fine_places.empty() ? ManyBad::kLeave : ManyBad::kMend;
@@ -229,8 +237,6 @@ class SurfaceMesher {
     has_same_topology_ = euler_number(improved.surface.mesh) == chi;
     take_mesh(std::move(improved.surface));
     watch_.finished("improve");
-    result_.report.check = check_mesh(result_.mesh);
-    watch_.finished("verify");
     return std::move(improved.left);
   }
 
