@@ -12,6 +12,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/mman.h>
+#include <sys/sysinfo.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -232,6 +233,13 @@ void look_at_limit(int) {
 }  // namespace
 
 namespace gaussmesh::app {
+
+double physical_memory() {
+  struct sysinfo info {};
+  if (::sysinfo(&info) != 0) return 0.0;
+  return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) *
+         static_cast<double>(info.mem_unit);
+}
 
 void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   std::string name = (folder / "gaussmesh.XXXXXX").string();

@@ -11,6 +11,9 @@ namespace gaussmesh::app {
 /// the limit is looked at again.
 inline constexpr std::uint64_t kLeastMemory = std::uint64_t{128} << 20;
 
+/// Memory of the machine with its swap (bytes), or 0 if that is not known.
+double physical_memory();
+
 /// There is no room on the disk for what does not fit into memory.
 struct NoRoomOnDisk : std::bad_alloc {
   const char* what() const noexcept override {

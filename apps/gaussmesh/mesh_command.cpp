@@ -291,6 +291,7 @@ int run_mesh(const MeshCommand& command) {
   options.isovalue = surface.isovalue;
   if (command.density) options.spacing = spacing_for_density(*command.density);
   options.measure_distance = !command.report.empty();
+  if (command.max_memory == 0) options.memory_bytes = physical_memory();
   MeshResult result = [&] {
     ProgressBar bar(!command.quiet, options.improve);
     options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };

@@ -17,14 +17,15 @@ namespace gaussmesh {
 
 /// What is to be meshed: { x : phi(x) = c }, phi(x) = sum_i exp(-d (|x - x_i|^2 - r_i^2)).
 struct MeshOptions {
-  double decay = 0.6;              ///< d, 1/A^2, 0.001 to 1000
-  double isovalue = 1.7;           ///< c, 1e-9 to 1e9
-  double spacing = 0.5;            ///< wanted mean edge (A), 0.01 to 200; where the mesh stays as traced, that of the
-                                   ///< cells, to 1000
-  bool improve = true;             ///< make the triangles nearly equilateral; otherwise they stay as traced
-  double tolerance = 0.0;          ///< largest MeshReport::surface_distance (A), to 1000; 0: no limit
-  bool measure_distance = false;   ///< fill MeshReport::surface_distance also where there is no tolerance
-  int threads = 0;                 ///< to 4096; 0: as many as there are processors
+  double decay = 0.6;             ///< d, 1/A^2, 0.001 to 1000
+  double isovalue = 1.7;          ///< c, 1e-9 to 1e9
+  double spacing = 0.5;           ///< wanted mean edge (A), 0.01 to 200; where the mesh stays as traced, that of the
+                                  ///< cells, to 1000
+  bool improve = true;            ///< make the triangles nearly equilateral; otherwise they stay as traced
+  double tolerance = 0.0;         ///< largest MeshReport::surface_distance (A), to 1000; 0: no limit
+  bool measure_distance = false;  ///< fill MeshReport::surface_distance also where there is no tolerance
+  int threads = 0;                ///< to 4096; 0: as many as there are processors
+  double memory_bytes = 0.0;      ///< what there is for the mesh: one that surely takes more is not begun; 0: not known
   bool allow_uncertified = false;  ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
   std::function<void(double share_done)>
@@ -111,7 +112,7 @@ struct MeshResult {
 /// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
 /// @throws InputError       if there are no atoms, or one with a coordinate or radius that cannot be
 /// @throws CannotMeshError  if phi < c everywhere, if the tolerance is not reached, if c is so near a critical value
-///                          that the topology is not certain, or if the spacing is too small or too large for arrays
+///                          that the topology is not certain, or if the mesh is too large for the memory or for arrays
 /// @throws InternalError    if the mesh is not what is promised here: nothing of it is given out
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options);
 

@@ -33,46 +33,77 @@ Vec3 direction(int i) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-/// The wanted size at the place of the surface near to the sphere of an atom, in a direction from its centre.
-std::optional<double> size_near(const GaussianField& field, std::size_t atom, const Vec3& direction,
-                                const SizeTargets& targets) {
+struct Sample {
+  double size;           ///< wanted edge (A)
+  double area_in_areas;  ///< the atom's share of the surface there, by that of its sphere
+};
+
+/// Of the place of the surface near to the sphere of an atom, in a direction from its centre.
+std::optional<Sample> sample_near(const GaussianField& field, std::size_t atom, const Vec3& direction,
+                                  const SizeTargets& targets) {
+  constexpr double kLeastCosine = 0.2;    // of a surface that is seen from the centre at a slant
   constexpr double kReachInWidths = 2.0;  // of the Gaussians: neighbours push the surface out by less
   const double radius = std::sqrt(radius_sq(field, atom));
   const double farthest = std::min(radius, kReachInWidths / std::sqrt(field.decay()));
   const WeightedCentres& atoms = field.atoms();
-  const Vec3 start = Vec3{atoms.x[atom], atoms.y[atom], atoms.z[atom]} + radius * direction;
+  const Vec3 centre{atoms.x[atom], atoms.y[atom], atoms.z[atom]}, start = centre + radius * direction;
   const Vec3 reach{farthest, farthest, farthest};
   BlockField near(field, {start - reach, start + reach});
   const std::optional<Place> place = near.project(start, farthest, Accuracy::kRough);
   if (!place) return std::nullopt;  // buried
-  return wanted_size(principal_curvatures(near.jet(place->at)).larger, targets);
-}
-
-/// Wanted sizes at places that are spread evenly over the surface, more or less.
-std::vector<double> sample_sizes(const GaussianField& field, const SizeTargets& targets) {
-  double all = 0.0;
-  for (std::size_t i = 0; i < field.size(); ++i) all += radius_sq(field, i);
-  // As many samples as the area of its sphere has a share in that of all: some atoms have several and many none.
-  double passed = 0.0;
-  int sample = 0;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    passed += radius_sq(field, i);
-    for (; sample < kSamples && (sample + 0.5) * all < passed * kSamples; ++sample) {
-      if (const auto size = size_near(field, i, direction(sample), targets)) sizes.push_back(*size);
-    }
-  }
-  return sizes;
+  const double size = wanted_size(principal_curvatures(near.jet(place->at)).larger, targets);
+  // Seen from the centre the surface is in one place. Shares of atoms are their parts of phi, which is c, so that all
+  // atoms together count a place once.
+  const std::optional<Place> seen = near.project_along(direction, start, farthest);
+  if (!seen) return Sample{size, 0.0};
+  const Vec3 out = seen->at - centre;
+  const double distance_sq = dot(out, out), share = std::exp(atoms.w[atom] - field.decay() * distance_sq);
+  const double cosine = std::max(dot(out, seen->normal) / std::sqrt(distance_sq), kLeastCosine);
+  return Sample{size, share * distance_sq / (radius * radius * cosine)};
 }
 
 }  // namespace
 
-double suitable_cell_size(const GaussianField& field, const SizeTargets& targets) {
-  std::vector<double> sizes = sample_sizes(field, targets);
-  if (sizes.empty()) return targets.spacing;
-  std::sort(sizes.begin(), sizes.end());
+double area_of_spheres(const GaussianField& field) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < field.size(); ++i) sum += radius_sq(field, i);
+  return 4.0 * std::numbers::pi * sum;
+}
+
+SizeSamples sample_sizes(const GaussianField& field, const SizeTargets& targets) {
+  SizeSamples samples;
+  const double area = area_of_spheres(field) / kSamples;
+  // As many samples as the area of its sphere has a share in that of all: some atoms have several and many none.
+  double passed = 0.0;
+  int sample = 0;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    passed += 4.0 * std::numbers::pi * radius_sq(field, i);
+    for (; sample < kSamples && (sample + 0.5) * area < passed; ++sample) {
+      const auto found = sample_near(field, i, direction(sample), targets);
+      if (!found) continue;
+      samples.sizes.push_back(found->size);
+      samples.area += area * found->area_in_areas;
+    }
+  }
+  std::sort(samples.sizes.begin(), samples.sizes.end());
+  return samples;
+}
+
+double suitable_cell_size(const SizeSamples& samples, double spacing) {
+  const std::vector<double>& sizes = samples.sizes;
+  if (sizes.empty()) return spacing;
   const double small = sizes[sizes.size() / 4], large = sizes[9 * sizes.size() / 10];
-  return std::min(std::max(kCellInSmallSizes * small, kCellInLargeSizes * large), targets.spacing);
+  return std::min(std::max(kCellInSmallSizes * small, kCellInLargeSizes * large), spacing);
+}
+
+double least_triangle_count(const SizeSamples& samples) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < samples.sizes.size(); ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(samples.sizes.size());
+    const double area = share * samples.area, size = samples.sizes[i];
+    most = std::max(most, area / (0.25 * std::numbers::sqrt3 * size * size));
+  }
+  return most;
 }
 
 }  // namespace gaussmesh

@@ -1,17 +1,32 @@
-// How large the cells of the trace should be for the triangles to come.
+// What can be known of the triangles to come before anything is traced: from their sizes at a few hundred places.
 #pragma once
+
+#include <vector>
 
 #include "field/gaussian_field.h"
 #include "improve/size_field.h"
 
 namespace gaussmesh {
 
-/// Edge (A) of cells that suit the wanted triangles: targets.spacing, or less where the curvature or the tolerance
-/// makes most triangles smaller. Cells that are much too large cost more: they are split for the proof, and
-/// improvement has to make most of the triangles. A guess from sizes at a few hundred places; nothing but cost hangs
-/// on it.
-///
+/// Area (A^2) of the spheres of the atoms, each alone: more than that of the surface but for necks.
+double area_of_spheres(const GaussianField& field);
+
+/// Places that are spread evenly over the surface, more or less.
+struct SizeSamples {
+  std::vector<double> sizes;  ///< wanted edges there (A), in rising order; none where no place was found
+  double area = 0.0;          ///< of the surface (A^2), to a third, and rather too small
+};
+
 /// Cost: a few milliseconds, and a pass over the atoms.
-double suitable_cell_size(const GaussianField& field, const SizeTargets& targets);
+SizeSamples sample_sizes(const GaussianField& field, const SizeTargets& targets);
+
+/// Edge (A) of cells that suit the wanted triangles: the spacing (A), or less where the curvature or the tolerance
+/// makes most triangles smaller. Cells that are much too large cost more: they are split for the proof, and
+/// improvement has to make most of the triangles. Nothing but cost hangs on it.
+double suitable_cell_size(const SizeSamples& samples, double spacing);
+
+/// A number of triangles that will hardly be fewer: by the sizes that some part of the surface does not exceed.
+/// Where sizes differ much there are many more.
+double least_triangle_count(const SizeSamples& samples);
 
 }  // namespace gaussmesh

@@ -97,6 +97,7 @@ double block_edge(double cell, double mean_edge) {
 
 std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
   std::vector<BadPlace> places;
+  places.reserve(vertices.size());
   for (const std::uint32_t v : vertices) places.push_back({mesh.at[v], double(mesh.size[v])});
   return places;
 }

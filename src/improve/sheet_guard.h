@@ -60,8 +60,8 @@ class SheetGuard {
 
   Guarding guarding_;
   std::optional<SheetTree> tree_;           ///< made when there is a triangle for it
-  Vec3 lo_;                                 ///< corner of the tree's cube
-  float width_;                             ///< and its edge (A)
+  Vec3 lo_{};                               ///< corner of the tree's cube
+  float width_ = 0.0f;                      ///< and its edge (A)
   std::vector<std::uint32_t> triangle_of_;  ///< by entry of the tree; fixed ones from kFirstFixed on
   std::vector<std::uint32_t> entry_of_;     ///< by triangle of the block: in the tree
 };

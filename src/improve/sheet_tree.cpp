@@ -26,7 +26,7 @@ void SheetTree::Cell::add(std::size_t e, const Item& item) {
 
 std::uint32_t SheetTree::add(const Item& item) {
   const auto number = static_cast<std::int32_t>(entries_.size());
-  entries_.push_back({item, -1, -1, -1});
+  entries_.push_back({item});
   link(number, find_cell(item));
   return static_cast<std::uint32_t>(number);
 }

@@ -23,8 +23,8 @@ inline bool are_of_one_sheet(const Normal& m, const Normal& n) {
 class SheetTree {
  public:
   struct Item {
-    FloatBox box;   ///< holds the triangle; A, from a corner of the cube
-    Normal normal;  ///< mean of the field's at the corners, not of unit length
+    FloatBox box;     ///< holds the triangle; A, from a corner of the cube
+    Normal normal{};  ///< mean of the field's at the corners, not of unit length
   };
 
   /// @param width  of the cube that the triangles are in (A, > 0); one beyond it is found too, but more slowly
@@ -92,7 +92,7 @@ class SheetTree {
 
   struct Entry {
     Item item;
-    std::int32_t cell, previous, next;  ///< entries of the same cell; negative: none
+    std::int32_t cell = -1, previous = -1, next = -1;  ///< entries of the same cell; negative: none
   };
 
   /// The cell for an item, made if there is none, after letting those above it know of the item.

@@ -16,6 +16,7 @@
 #include "improve/cell_size.h"
 #include "pipeline/check_options.h"
 #include "pipeline/critical_places.h"
+#include "pipeline/room.h"
 #include "pipeline/trace_surface.h"
 
 namespace gaussmesh {
@@ -125,6 +126,7 @@ class SurfaceMesher {
 
  private:
   void mesh_as_traced() {
+    require_room_as_traced(field_, options_);
     take_mesh(trace());
     result_.report.check = check_mesh(result_.mesh);
     if (options_.measure_distance) measure_distance();
@@ -137,7 +139,9 @@ class SurfaceMesher {
     targets.spacing = options_.spacing;
     targets.tolerance = options_.tolerance;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-      demands_.spacing = targets.cell = suitable_cell_size(field_, targets);
+      const SizeSamples samples = sample_sizes(field_, targets);
+      require_room(least_triangle_count(samples), options_);
+      demands_.spacing = targets.cell = suitable_cell_size(samples, targets.spacing);
       improve_until_no_angle_is_small(targets);
       if (!is_good()) return;
       if (options_.measure_distance || options_.tolerance > 0.0) measure_distance();

@@ -275,6 +275,21 @@ class NothingToMesh(CliTest):
                 self.assertEqual(self.mesh.read_text(), old)
 
 
+class TooLarge(CliTest):
+    """A sphere of 50,000 A: at the least spacing it has more triangles than can be numbered, at others more than any
+    machine has room for."""
+
+    def test_a_mesh_that_is_too_large_is_not_begun(self):
+        atom = self.write("large.xyzr", "0 0 0 50000\n")
+        for options, said in [(["--spacing", 0.01], r"some 7\.3e\+14 triangles .* can be numbered; choose a larger spacing$"),
+                              (["--spacing", 0.01, "--raw"], r"some 7\.3e\+14 triangles .* choose a larger spacing$"),
+                              (["--spacing", 3], r"some 8\.1e\+09 triangles .* can be numbered"),
+                              (["--tolerance", 1e-8, "--spacing", 9], r"choose a larger spacing or tolerance$")]:
+            error = self.expect(CANNOT_MESH, atom, *options, "-o", self.mesh).stderr
+            self.assertRegex(error.strip(), said)
+            self.assertEqual(self.files(), ["large.xyzr"])
+
+
 class NearCritical(CliTest):
     """Two atoms at the very isovalue where their spheres touch: phi at the middle is c up to rounding."""
 

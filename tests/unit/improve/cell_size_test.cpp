@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "catch2.h"
 #include "support/meshing.h"
@@ -15,7 +16,16 @@ namespace {
 constexpr double kDecay = 0.6;
 
 double cell_for(const std::vector<Atom>& atoms, double spacing, double tolerance = 0.0) {
-  return suitable_cell_size(GaussianField(atoms, kDecay, 1.0), {spacing, tolerance, spacing, spacing});
+  return suitable_cell_size(
+      sample_sizes(GaussianField(atoms, kDecay, 1.0), {.spacing = spacing, .tolerance = tolerance}), spacing);
+}
+
+MeshOptions options_for(double spacing) {
+  MeshOptions options;
+  options.decay = kDecay;
+  options.isovalue = 1.0;
+  options.spacing = spacing;
+  return options;
 }
 
 }  // namespace
@@ -51,4 +61,28 @@ TEST_CASE("the order of the atoms does not matter") {
 
 TEST_CASE("where no place of the surface is found the spacing is left as it is") {
   CHECK(cell_for({{0, 0, 0, 0.0, 0}, {1, 0, 0, 0.0, 0}}, 5.0) == 5.0);
+}
+
+TEST_CASE("the area of a sphere is known, that of many atoms about") {
+  const auto area_of = [](const std::vector<Atom>& atoms) {
+    return sample_sizes(GaussianField(atoms, kDecay, 1.0), {}).area;
+  };
+  const double sphere = area_of({{1, 2, 3, 2.0, 0}});
+  CHECK(sphere == Approx(16.0 * std::numbers::pi).epsilon(1e-6));
+  CHECK(area_of({{0, 0, 0, 2.0, 0}, {1e4, 0, 0, 2.0, 0}}) == Approx(2.0 * sphere).epsilon(1e-6));
+  const std::vector<Atom> ring = atom_ring(12, 5.0, 1.5);
+  const double exact = mesh_surface(ring, options_for(0.5)).report.check.area;
+  CHECK(area_of(ring) > 0.6 * exact);
+  CHECK(area_of(ring) < 1.1 * exact);
+}
+
+TEST_CASE("what is said to be the least number of triangles is no more than there are") {
+  const std::vector<Atom> ring = atom_ring(12, 5.0, 1.5);
+  for (const double spacing : {0.3, 1.0, 3.0}) {
+    CAPTURE(spacing);
+    const SizeSamples samples = sample_sizes(GaussianField(ring, kDecay, 1.0), {.spacing = spacing});
+    const std::size_t triangles = mesh_surface(ring, options_for(spacing)).mesh.triangles.size();
+    CHECK(least_triangle_count(samples) < 1.1 * static_cast<double>(triangles));
+    CHECK(least_triangle_count(samples) > 0.3 * static_cast<double>(triangles));
+  }
 }

@@ -35,15 +35,18 @@ void check_all_sizes(const BlockMesh& block, double wanted) {
 TEST_CASE("on a sphere the wanted size is what is asked for, unless the curvature or the tolerance asks for less") {
   const double radius = 2.0;
   const std::vector<Atom> sphere = {{0.1, 0.2, 0.3, radius, 0}};
-  check_all_sizes(sized_block(sphere, {kSpacing, 0.0, 0.6}), 0.6);
-  check_all_sizes(sized_block(sphere, {kSpacing, 0.0, 10.0}), kTurnPerEdge * radius);
+  check_all_sizes(sized_block(sphere, {.spacing = kSpacing, .largest_factor = 0.6 / kSpacing}), 0.6);
+  check_all_sizes(sized_block(sphere, {.spacing = kSpacing, .tolerance = 0.0, .largest_factor = 10.0 / kSpacing}),
+                  kTurnPerEdge * radius);
   const double tolerance = 0.01;
-  check_all_sizes(sized_block(sphere, {kSpacing, tolerance, 10.0}), std::sqrt(2.5 * tolerance * radius));
+  check_all_sizes(sized_block(sphere, {.spacing = kSpacing, .tolerance = tolerance, .largest_factor = 10.0 / kSpacing}),
+                  std::sqrt(2.5 * tolerance * radius));
 }
 
 TEST_CASE("sizes fall towards a neck and grow by no more than a quarter of the way from it") {
   const std::vector<Atom> dumbbell = {{-2.0, 0, 0, 2.0, 0}, {2.0, 0.1, 0, 2.0, 0}};
-  const BlockMesh block = sized_block(dumbbell, {kSpacing, 0.0, 10.0});
+  const BlockMesh block =
+      sized_block(dumbbell, {.spacing = kSpacing, .tolerance = 0.0, .largest_factor = 10.0 / kSpacing});
   const HalfEdgeMesh& c = block.connectivity;
   for (HalfEdgeMesh::Index h = 0; h < c.half_edges(); ++h) {
     const auto u = c.from(h), v = c.to(h);

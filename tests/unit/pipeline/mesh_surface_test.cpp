@@ -480,3 +480,18 @@ TEST_CASE("the report says what was done") {
     CHECK(stage.peak_memory_MB > 0.0);
   }
 }
+
+TEST_CASE("a mesh that takes more memory than there is is not begun, one that takes less is") {
+  const std::vector<Atom> sphere = {{0, 0, 0, 10.0, 0}};
+  for (const bool improve : {true, false}) {
+    CAPTURE(improve);
+    MeshOptions options;
+    options.decay = options.isovalue = 1.0;
+    options.improve = improve;
+    options.memory_bytes = 5e5;  // some 12,000 triangles of 60 or 100 bytes
+    CHECK_THROWS_WITH(mesh_surface(sphere, options),
+                      Catch::Matchers::ContainsSubstring("of memory, and there are 0.0005 GB"));
+    options.memory_bytes = 5e6;
+    CHECK(mesh_surface(sphere, options).report.check.components.size() == 1);
+  }
+}

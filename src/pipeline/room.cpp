@@ -1,0 +1,50 @@
+#include "pipeline/room.h"
+
+#include <numbers>
+
+#include "core/number_text.h"
+#include "gaussmesh/error.h"
+#include "improve/cell_size.h"
+
+namespace gaussmesh {
+namespace {
+
+/// Less than large meshes of proteins take at the peak.
+constexpr double kBytesPerTriangle = 100.0, kBytesPerTriangleAsTraced = 60.0;
+
+/// Triangles have two vertices each, which are numbered by 31 bits.
+constexpr double kMostTriangles = 4294967296.0;
+
+double bytes_for(double triangles, const MeshOptions& options) {
+  return triangles * (options.improve ? kBytesPerTriangle : kBytesPerTriangleAsTraced);
+}
+
+bool is_room(double triangles, const MeshOptions& options) {
+  return triangles <= kMostTriangles &&
+         (options.memory_bytes == 0.0 || bytes_for(triangles, options) <= options.memory_bytes);
+}
+
+}  // namespace
+
+void require_room(double triangles, const MeshOptions& options) {
+  if (is_room(triangles, options)) return;
+  const char* larger = options.tolerance > 0.0 ? "spacing or tolerance" : "spacing";
+  if (triangles > kMostTriangles) {
+    throw CannotMeshError("some " + number_text(triangles, 2) + " triangles are to come, and at most " +
+                          number_text(kMostTriangles, 2) + " can be numbered; choose a larger " + larger);
+  }
+  throw CannotMeshError("some " + number_text(triangles, 2) + " triangles are to come, which take " +
+                        number_text(1e-9 * bytes_for(triangles, options), 2) + " GB of memory, and there are " +
+                        number_text(1e-9 * options.memory_bytes, 2) + " GB; choose a larger " + larger +
+                        ", or set max-memory");
+}
+
+void require_room_as_traced(const GaussianField& field, const MeshOptions& options) {
+  const double of_one = 0.25 * std::numbers::sqrt3 * options.spacing * options.spacing;
+  if (is_room(area_of_spheres(field) / of_one, options)) return;
+  SizeTargets targets;
+  targets.spacing = options.spacing;
+  require_room(sample_sizes(field, targets).area / of_one, options);
+}
+
+}  // namespace gaussmesh
