@@ -23,7 +23,7 @@ CheckFindings find_all(const CheckOptions& options) {
   if (is_measurable) found.near = find_near_vertices(mesh, found.separation);
   if (!options.molecule) return found;
   const Surface surface = surface_of(options.surface, options.reading);
-  const std::vector<Atom> atoms = read_molecule(*options.molecule, surface.reading, false).atoms;
+  const std::vector<Atom> atoms = read_molecule(*options.molecule, surface.reading).atoms;
   found.tolerance = options.tolerance;
   if (!is_measurable) return found;
   found.distance = distance_to_surface(mesh, atoms, surface.decay, surface.isovalue);

@@ -18,13 +18,15 @@ struct Defect {
   std::size_t count;
 };
 
+enum class Side { kOutside, kCavity };
+
 /// Outsides or cavities that are turned the wrong way. None where a surface is not closed: the cavities in it would be
 /// taken for outsides.
-std::size_t count_inverted(const MeshCheck& mesh, bool cavities) {
+std::size_t count_inverted(const MeshCheck& mesh, Side side) {
   if (!all_are_closed(mesh)) return 0;
   return static_cast<std::size_t>(
       std::count_if(mesh.components.begin(), mesh.components.end(),
-                    [&](const MeshComponent& c) { return c.inverted && c.is_cavity() == cavities; }));
+                    [&](const MeshComponent& c) { return c.inverted && c.is_cavity() == (side == Side::kCavity); }));
 }
 
 std::vector<Defect> defects_of(const CheckFindings& found) {
@@ -48,9 +50,9 @@ std::vector<Defect> defects_of(const CheckFindings& found) {
       {"pairs of triangles that cross or touch", "pair of triangles that cross or touch", "intersecting_pairs",
        mesh.intersecting_pairs},
       {"outer surfaces whose faces turn inwards", "outer surface whose faces turn inwards", "inward_surfaces",
-       count_inverted(mesh, false)},
+       count_inverted(mesh, Side::kOutside)},
       {"cavities whose faces turn outwards", "cavity whose faces turn outwards", "outward_cavities",
-       count_inverted(mesh, true)}};
+       count_inverted(mesh, Side::kCavity)}};
   if (found.charges_outside)
     defects.push_back(
         {"charges outside the mesh", "charge outside the mesh", "charges_outside", found.charges_outside->size()});
@@ -66,7 +68,7 @@ std::string defects_text(const CheckFindings& found) {
   std::string text = "Defects\n";
   for (const Defect& defect : defects_of(found)) text += line("  %-49s %11zu\n", defect.text, defect.count);
   if (!all_are_closed(mesh)) text += "  a surface is not closed: which ones turn the wrong way is not known\n";
-  const std::size_t inward = count_inverted(mesh, false);
+  const std::size_t inward = count_inverted(mesh, Side::kOutside);
   if (inward > 0 && inward == mesh.components.size())
     text += "  all surfaces turn inwards: is this a cavity by itself, as --cavities separate writes it?\n";
   std::string pairs;

@@ -60,7 +60,7 @@ int run_convert(const ConvertOptions& options) {
   }
   if (file.data.components.empty()) file.data.components = find_vertex_components(file.mesh, check);
   if (options.molecule) {
-    const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading, false).atoms;
+    const std::vector<Atom> atoms = read_molecule(*options.molecule, options.reading).atoms;
     file.data.atoms = find_nearest_atoms(file.mesh, atoms, 0);
   }
   if (file.data.normals.empty() && needs_normals(options.outputs, writing)) {

@@ -101,7 +101,7 @@ int run_measure(const MeasureCommand& command) {
                      counted(found.mesh.bad_coordinates, "vertex without usable coordinates",
                              "vertices without usable coordinates"));
   if (command.molecule)
-    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false).atoms);
+    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading).atoms);
   OutputFiles files;
   if (command.atom_areas) files.add_text(areas_text(found.by_atoms->areas), *command.atom_areas);
   const bool is_taken = is_standard_output(command.atom_areas.value_or(""));

@@ -285,16 +285,20 @@ int run_mesh(const MeshCommand& command) {
   require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
-  const AtomFile input = read_molecule(command.molecule, surface.reading, command.quiet);
+  const AtomFile input =
+      read_molecule(command.molecule, surface.reading, command.quiet ? Warnings::kKeepBack : Warnings::kPrint);
   MeshOptions options = command.options;
   options.decay = surface.decay;
   options.isovalue = surface.isovalue;
   if (command.density) options.spacing = spacing_for_density(*command.density);
   options.measure_distance = !command.report.empty();
   MeshResult result = [&] {
-    ProgressBar bar(!command.quiet, options.improve);
-    options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
-    options.on_improving = [&](double share_done) { bar.improving(share_done); };
+    std::optional<ProgressBar> bar;
+    if (!command.quiet) {
+      bar.emplace(options.improve);
+      options.on_stage_end = [&](const std::string& stage) { bar->stage_ended(stage); };
+      options.on_improving = [&](double share_done) { bar->improving(share_done); };
+    }
     return mesh_surface(input.atoms, options);
   }();
   tell_of_input(command, surface, input, result.report);
