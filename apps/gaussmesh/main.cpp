@@ -146,6 +146,7 @@ int run(int argc, char** argv) {
     std::cerr << "gaussmesh: " << message_of(program, error) << "\nRun with --help for more information.\n";
     return dynamic_cast<const CLI::FileError*>(&error) != nullptr ? kInput : kWrongUse;
   }
+  require_known_command(program);
   require_command_alone(program);
   if (!manual.empty()) return print_manual(program, manual);
   if (check_command->parsed()) return run_check(check);

@@ -262,6 +262,19 @@ class WrongUse(CliTest):
     def test_check_of_nothing(self):
         self.refused("check")
 
+    def test_a_mistyped_command_is_guessed(self):
+        for words, command in [(["chek"], "check"), (["chek", self.mesh], "check"), (["CHECK", self.mesh], "check"),
+                               (["mesure", self.mesh, self.molecule("methanol"), "--atom-areas", "a"], "measure"),
+                               (["conv", self.mesh, "a.ply"], "convert"),
+                               (["compair", "a.off", "-o", self.mesh], "compare")]:
+            self.refused(*words, names=f"^gaussmesh: expected a file of atoms or a command, got '{words[0]}'; "
+                                       f"did you mean '{command}'\\?\n")
+        self.refused("chain", self.mesh, names="^gaussmesh: expected one molecule, got 'chain' and '.*out.off'\n")
+        self.expect(BAD_INPUT, "chain", "-o", self.mesh)
+        self.write("chek", self.molecule("methanol").read_bytes())
+        self.refused("chek", "second", names="^gaussmesh: expected one molecule, got 'chek' and 'second'\n")
+        self.expect(0, "chek", "-o", self.mesh)
+
 
 class NothingToMesh(CliTest):
     def test_level_above_phi_everywhere(self):
