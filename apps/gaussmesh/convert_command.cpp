@@ -36,7 +36,7 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
           ->type_name("MOL")
           ->check(file_name_of_option());
   for (CLI::Option* option : add_molecule_options(*command, options.reading)) option->needs(molecule);
-  add_format_options(*command, options.writing, options.no_header);
+  add_format_options(*command, options.writing);
   command->footer(
       "Without a molecule, nearest atoms are those that the input has, if any. Normals that it has not are averaged\n"
       "over the triangles.\n\n"
@@ -48,7 +48,8 @@ CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options) {
 }
 
 int run_convert(const ConvertOptions& options) {
-  const WriteOptions writing = writing_options(options.writing, options.no_header);
+  const WriteOptions& writing = options.writing;
+  require_header_to_leave_out(options.outputs, writing);
   // The mesh itself may be written over: all of it has been read by then.
   require_writable_outputs(options.outputs, "", writing,
                            files_of_molecule(options.molecule.value_or(""), options.reading));

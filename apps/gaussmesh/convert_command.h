@@ -16,7 +16,6 @@ struct ConvertOptions {
   std::vector<std::string> outputs;
   std::optional<std::string> molecule;  ///< gives the nearest atoms
   MoleculeOptions reading;              ///< of the molecule
-  bool no_header = false;
   WriteOptions writing;
 };
 

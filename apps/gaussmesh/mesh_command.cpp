@@ -43,13 +43,14 @@ void require_spacing_for_improvement(const MeshCommand& command) {
 void require_sense(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a file of atoms, got nothing; see --help");
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
+  require_header_to_leave_out(command.outputs, command.writing);
   require_spacing_for_improvement(command);
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
   for (const std::string& output : command.outputs) {
     // Its hole and region points are those of a whole molecule: a cavity by itself has nothing inside.
-    if (is_separate && format_of(output, writing_options(command.writing, command.no_header)).name == "smesh")
+    if (is_separate && format_of(output, command.writing).name == "smesh")
       throw OptionError("--cavities separate: expected a format that holds a surface alone, got smesh for '" + output +
                         "', which wants cavities together with what they are in");
   }
@@ -88,8 +89,7 @@ std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t
 
 /// Finds out what cannot be written where there are so many surfaces.
 void require_writable_files(const MeshCommand& command, std::size_t surfaces) {
-  require_writable_outputs(names_of_meshes(command, surfaces), command.report,
-                           writing_options(command.writing, command.no_header),
+  require_writable_outputs(names_of_meshes(command, surfaces), command.report, command.writing,
                            files_of_molecule(command.molecule, command.reading));
 }
 
@@ -127,11 +127,10 @@ void tell_of_input(const MeshCommand& command, const Surface& surface, const Ato
 
 /// What the formats of the outputs hold.
 VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result) {
-  const WriteOptions writing = writing_options(command.writing, command.no_header);
   VertexData data;
   data.normals = result.normals;
   for (const std::string& output : command.outputs) {
-    if (format_of(output, writing).held != HeldData::kAll) continue;
+    if (format_of(output, command.writing).held != HeldData::kAll) continue;
     data.atoms = find_nearest_atoms(result.mesh, atoms, command.options.threads);
     data.components = find_vertex_components(result.mesh, result.report.check);
     break;
@@ -142,7 +141,7 @@ VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>&
 /// Writes all meshes and the report, all of them or none; returns what the first output became.
 std::string write_all(const MeshCommand& command, const Product& product) {
   const auto& [surface, report] = product;
-  WriteOptions writing = writing_options(command.writing, command.no_header);
+  WriteOptions writing = command.writing;
   writing.threads = command.options.threads;
   OutputFiles files;
   std::string first = command.outputs.front();
@@ -239,7 +238,7 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
       ->take_all()
       ->check(file_name_of_option())
       ->group(group);
-  for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(group);
+  for (CLI::Option* option : add_format_options(program, command.writing)) option->group(group);
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")

@@ -275,6 +275,18 @@ class WrongUse(CliTest):
         self.refused("chek", "second", names="^gaussmesh: expected one molecule, got 'chek' and 'second'\n")
         self.expect(0, "chek", "-o", self.mesh)
 
+    def test_no_header_is_for_msms(self):
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        for command in [[self.molecule("methanol"), "-o", "new.off", "-o", "new.ply"],
+                        [self.molecule("methanol"), "-o", "new.off", "--cavities", "separate"],
+                        ["convert", self.mesh, "new.off"]]:
+            error = self.expect(WRONG_USE, *command, "--no-header").stderr
+            self.assertEqual(error, "gaussmesh: --no-header: expected a mesh to write in the format msms, got off for "
+                                    "'new.off'\n")
+        self.assertEqual(self.files(), ["out.off"])
+        self.expect(0, "convert", self.mesh, "new.off", "new.vert", "--no-header")
+        self.assertNotIn("#", (self.folder / "new.vert").read_text())
+
 
 class NothingToMesh(CliTest):
     def test_level_above_phi_everywhere(self):
