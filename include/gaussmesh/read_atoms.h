@@ -87,7 +87,9 @@ AtomFile read_atoms(std::istream& input, std::string_view name, const ReadOption
 ///   within +-kLargestCoordinate, radii in [0, kLargestRadius]. A radius of 0 is normal.
 /// - Lines end in LF, CRLF or CR. A UTF-8 byte order mark is skipped.
 /// - Of several models (MODEL ... ENDMDL) the first is read; a warning counts the atoms left out. Reading goes on
-///   after TER and after END; atoms after END are warned of. Alternate locations are all read.
+///   after TER and after END; atoms after END are warned of, since files of a complex are often joined so. But where
+///   they are those before END over again, by name and in the same order, they may be other frames, copies, or other
+///   molecules of the same kind: that is an error. Alternate locations are all read.
 /// - Blank lines, # comments and the other records of PDB are passed over; a warning counts lines of any other
 ///   kind.
 /// - A warning names the first radius above kSuspectRadius, and the largest. A file of at least 4 atoms whose
