@@ -11,7 +11,7 @@ namespace gaussmesh {
 namespace {
 
 /// Columns of the table, in the order of kColumns. Tags of authors stand in for those that the dictionary asks for.
-enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kNumber, kInsertion, kX, kY, kZ };
+enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kAuthorChain, kNumber, kInsertion, kX, kY, kZ };
 constexpr auto kOptional = CifColumn::Need::kOptional;
 const std::vector<CifColumn> kColumns = {{"label_atom_id", "auth_atom_id"},
                                          {"label_comp_id", "auth_comp_id"},
@@ -19,6 +19,7 @@ const std::vector<CifColumn> kColumns = {{"label_atom_id", "auth_atom_id"},
                                          {"label_alt_id", "", kOptional},
                                          {"pdbx_PDB_model_num", "", kOptional},
                                          {"label_asym_id", "auth_asym_id", kOptional},
+                                         {"auth_asym_id", "label_asym_id", kOptional},
                                          {"auth_seq_id", "label_seq_id", kOptional},
                                          {"pdbx_PDB_ins_code", "", kOptional},
                                          {"Cartn_x", ""},
@@ -34,8 +35,8 @@ double coordinate(const std::string& text, const std::string& where) {
 }  // namespace
 
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
-                     const std::filesystem::path& radii_file) {
-  StructureBuilder builder(name, {radii, radii_file});
+                     const std::filesystem::path& radii_file, AtomNames names) {
+  StructureBuilder builder(name, {radii, radii_file}, names);
   const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kColumns);
   std::size_t number = 0;
   for (const std::vector<std::string>& row : table.rows) {
@@ -47,6 +48,8 @@ AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::st
                  .element = row[kElement],
                  .element_place = "type_symbol",
                  .site = row[kChain] + " " + row[kNumber] + row[kInsertion],
+                 .chain = row[kAuthorChain],
+                 .number = row[kNumber] + row[kInsertion],
                  .alternate = row[kAlternate],
                  .model = row[kModel],
                  .x = coordinate(row[kX], where),

@@ -3,6 +3,7 @@
 // Which fields of a record are its numbers is pqr_record.h; what the whole file gives away is pqr_checks.h.
 #include "atoms/atom_fields.h"
 #include "atoms/pqr_checks.h"
+#include "atoms/pqr_names.h"
 #include "atoms/pqr_record.h"
 #include "atoms/unknown_lines.h"
 #include "core/number_text.h"
@@ -19,7 +20,7 @@ struct FoundAtom {
 /// Reads one text; made anew for each.
 class PqrParser {
  public:
-  PqrParser(std::string_view text, std::string_view name) : name_(name), lines_(text) {
+  PqrParser(std::string_view text, std::string_view name, AtomNames names) : name_(name), names_(names), lines_(text) {
     constexpr std::size_t kTypicalRecord = 70;
     file_.atoms.reserve(text.size() / kTypicalRecord);
     file_.lines.reserve(text.size() / kTypicalRecord);
@@ -39,6 +40,7 @@ class PqrParser {
   LinePlace place() const { return {name_, lines_.number()}; }
 
   std::string_view name_;
+  AtomNames names_;
   LineReader lines_;
   FieldSplitter splitter_;
   AtomFile file_;
@@ -128,6 +130,7 @@ void PqrParser::read_atom(std::string_view line, std::string_view rest) {
 /// @param x     in the same line, where the numbers begin
 void PqrParser::note_names(std::string_view line, std::string_view rest, std::string_view x) {
   const std::string_view leading = trim(rest.substr(0, static_cast<std::size_t>(x.data() - rest.data())));
+  if (names_ == AtomNames::kKeep) file_.names.push_back(name_of(splitter_.split(leading)));
   const std::size_t end_of_serial = std::min(leading.find_first_of(" \t\v\f"), leading.size());
   end_check_.add(leading.substr(end_of_serial), trim(line), lines_.number());
 }
@@ -174,8 +177,8 @@ void PqrParser::warn_of_models() {
 
 }  // namespace
 
-AtomFile parse_pqr(std::string_view text, std::string_view name) {
-  return PqrParser(require_text(text, name), name).parse();
+AtomFile parse_pqr(std::string_view text, std::string_view name, AtomNames names) {
+  return PqrParser(require_text(text, name), name, names).parse();
 }
 
 }  // namespace gaussmesh

@@ -244,6 +244,40 @@ TEST_CASE("parse_pqr refuses frames and copies behind END") {
   CHECK(parse_pqr(frame + moved + "END\n", "f.pqr").atoms.size() == 4);
 }
 
+TEST_CASE("parse_pqr keeps names where they are asked for") {
+  struct Case {
+    const char* leading;
+    AtomName name;
+  };
+  const Case good = GENERATE(values<Case>({
+      {"ATOM 1 N ASN 12", {"N", "ASN", "", "12"}},
+      {"HETATM99941 N ASN A -5", {"N", "ASN", "A", "-5"}},
+      {"ATOM ***** N ASN A1001B", {"N", "ASN", "A", "1001B"}},
+      {"ATOM 1 N ASN A-5", {"N", "ASN", "A", "-5"}},
+      {"ATOM 1 N ASN A 12 B", {"N", "ASN", "A", "12B"}},
+      {"ATOM 1 N ASN 12 B", {"N", "ASN", "", "12B"}},
+      {"ATOM 1 P A 1 12", {"P", "A", "1", "12"}},
+      {"ATOM 1 N A ASN B 12", {"N", "ASN", "B", "12"}},
+      {"ATOM 1 N A ASN 12", {"N", "ASN", "", "12"}},
+      {"ATOM 1 HD11LEU 2", {"HD11", "LEU", "", "2"}},
+      {"ATOM 1 HD11LEU A1002", {"HD11", "LEU", "A", "1002"}},
+      {"ATOM 1 HD11ALEU A 2", {"HD11", "ALEU", "A", "2"}},
+      {"ATOM 1 HO5'1 A 2", {"HO5'1", "A", "", "2"}},
+      {"ATOM      1  N   ASN A  12    -158.901-245.8731049.445  0.1801 1.8240", {"N", "ASN", "A", "12"}},
+      {"ATOM      1  N                -158.901-245.8731049.445  0.1801 1.8240", {}},
+  }));
+  CAPTURE(good.leading);
+  const std::string record = good.leading;
+  const std::string text = record.ends_with("1.8240") ? record : record + kNumbers;
+  const AtomFile file = parse_pqr(text, "f.pqr", AtomNames::kKeep);
+  REQUIRE(file.names.size() == 1);
+  CHECK(file.names[0].name == good.name.name);
+  CHECK(file.names[0].residue == good.name.residue);
+  CHECK(file.names[0].chain == good.name.chain);
+  CHECK(file.names[0].number == good.name.number);
+  CHECK(parse_pqr(text, "f.pqr").names.empty());
+}
+
 TEST_CASE("parse_pqr warns of lines that it skips") {
   const std::string atom = "ATOM 1 N ASN 1" + kNumbers + "\n";
   const AtomFile file = parse_pqr("ATOMS 1\n" + atom + "TOM 2\nCONECT12345\n#\nter\n", "f.pqr");
