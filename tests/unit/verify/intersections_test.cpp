@@ -116,7 +116,11 @@ Intersections find(const TriangleMesh& mesh) {
 
 bool has_flat_triangle(const TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-    return are_collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    const auto turn_along = [&](int axis) {
+      const auto corner = [&](int k) { return project_along(axis, mesh.vertices[t[k]]); };
+      return orient2d(corner(0), corner(1), corner(2));
+    };
+    return turn_along(0) == 0 && turn_along(1) == 0 && turn_along(2) == 0;
   });
 }
 
