@@ -10,21 +10,25 @@
 namespace gaussmesh {
 namespace {
 
-/// Columns of the table, in the order of kColumns. Tags of authors stand in for those that the dictionary asks for.
+/// Columns of the table, in the order of columns().
 enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kAuthorChain, kNumber, kInsertion, kX, kY, kZ };
-constexpr auto kOptional = CifColumn::Need::kOptional;
-const std::vector<CifColumn> kColumns = {{"label_atom_id", "auth_atom_id"},
-                                         {"label_comp_id", "auth_comp_id"},
-                                         {"type_symbol", ""},
-                                         {"label_alt_id", "", kOptional},
-                                         {"pdbx_PDB_model_num", "", kOptional},
-                                         {"label_asym_id", "auth_asym_id", kOptional},
-                                         {"auth_asym_id", "label_asym_id", kOptional},
-                                         {"auth_seq_id", "label_seq_id", kOptional},
-                                         {"pdbx_PDB_ins_code", "", kOptional},
-                                         {"Cartn_x", ""},
-                                         {"Cartn_y", ""},
-                                         {"Cartn_z", ""}};
+
+/// Tags of authors stand in for those that the dictionary asks for.
+std::vector<CifColumn> columns() {
+  constexpr auto kOptional = CifColumn::Need::kOptional;
+  return {{"label_atom_id", "auth_atom_id"},
+          {"label_comp_id", "auth_comp_id"},
+          {"type_symbol", ""},
+          {"label_alt_id", "", kOptional},
+          {"pdbx_PDB_model_num", "", kOptional},
+          {"label_asym_id", "auth_asym_id", kOptional},
+          {"auth_asym_id", "label_asym_id", kOptional},
+          {"auth_seq_id", "label_seq_id", kOptional},
+          {"pdbx_PDB_ins_code", "", kOptional},
+          {"Cartn_x", ""},
+          {"Cartn_y", ""},
+          {"Cartn_z", ""}};
+}
 
 double coordinate(const std::string& text, const std::string& where) {
   const auto value = parse_number(text);
@@ -37,7 +41,7 @@ double coordinate(const std::string& text, const std::string& where) {
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
                      const std::filesystem::path& radii_file, AtomNames names) {
   StructureBuilder builder(name, {radii, radii_file}, names);
-  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kColumns);
+  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", columns());
   std::size_t number = 0;
   for (const std::vector<std::string>& row : table.rows) {
     const std::string where = std::string(name) + ": atom " + std::to_string(++number);

@@ -24,7 +24,7 @@ class RawSource {
 
   /// The next bytes, or as many as are left.
   std::string take(std::size_t count) {
-    const std::string taken(left_.substr(0, count));
+    std::string taken(left_.substr(0, count));
     left_.remove_prefix(taken.size());
     return taken;
   }
@@ -43,7 +43,7 @@ class Base64Source {
   std::string take(std::size_t count) {
     while (pending_.size() < count && read_group()) {
     }
-    const std::string taken = pending_.substr(0, count);
+    std::string taken = pending_.substr(0, count);
     pending_.erase(0, taken.size());
     return taken;
   }
