@@ -1,5 +1,6 @@
 #include "mesh_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <limits>

@@ -27,9 +27,8 @@ struct MeshOptions {
   int threads = 0;                 ///< to 4096; 0: as many as there are processors
   bool allow_uncertified = false;  ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
-  std::function<void(double share_done)>
-      on_improving;  ///< called often within the stage `improve`: on any thread, on several
-                     ///< at a time, and not always in rising order
+  /// Called often within the stage `improve`: on any thread, on several at a time, and not always in rising order.
+  std::function<void(double share_done)> on_improving;
 };
 
 /// The spacing (A) that gives about this many vertices per A^2, > 0: equilateral triangles of edge s have

@@ -91,8 +91,8 @@ class MissingFieldCheck {
   std::string_view suspect_x_;
 };
 
-/// Tells what is joined at END, as the chains of a complex often are, from the same atoms over again, which may be frames,
-/// copies, or more molecules of one kind.
+/// Tells what is joined at END, as the chains of a complex often are, from the same atoms over again, which may be
+/// frames, copies, or more molecules of one kind.
 class EndCheck {
  public:
   /// Notes an END in that line. The first one behind an atom counts.
@@ -100,7 +100,7 @@ class EndCheck {
     if (!end_line_ && !names_.empty()) end_line_ = line;
   }
 
-  /// Notes an atom. `names`, the part of its record between serial number and x, and the record itself must outlive this.
+  /// Notes an atom. Its record, and `names`, the part of it between serial number and x, must outlive this.
   void add(std::string_view names, std::string_view record, std::size_t line) {
     if (!end_line_) {
       names_.push_back(names);

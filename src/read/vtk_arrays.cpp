@@ -208,8 +208,8 @@ std::string VtkArrays::plain_bytes(const XmlElement& array, Source source) const
   return bytes;
 }
 
-/// In front of the blocks stand their number, their size before compression, that of the last one if it is smaller (else
-/// 0), and their sizes after compression.
+/// In front of the blocks stand their number, their size before compression, that of the last one if it is smaller
+/// (else 0), and their sizes after compression.
 template <class Source>
 std::string VtkArrays::expanded_bytes(const XmlElement& array, Source source) const {
   constexpr std::uint64_t kMostExpansion = 1040;  // zlib's own limit is 1032

@@ -19,7 +19,8 @@ class VtkArrays {
  public:
   /// `xml` must outlive this.
   ///
-  /// @throws InputError if its root is no VTKFile of that type, or has a compressor or an order of bytes that is not read
+  /// @throws InputError if its root is no VTKFile of that type, or has a compressor or an order of bytes that is not
+  /// read
   VtkArrays(const XmlElements& xml, std::string_view type);
 
   /// The numbers of a DataArray; whole numbers beyond 2^53 are rounded.
