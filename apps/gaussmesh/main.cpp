@@ -129,9 +129,9 @@ int run(int argc, char** argv) {
       ->check(file_name_of_option())
       ->group("Running");
   program.config_formatter(std::make_shared<ConfigFile>(program));
-  CheckOptions check;
+  CheckCommand check;
   CLI::App* check_command = add_check_command(program, check);
-  ConvertOptions convert;
+  ConvertCommand convert;
   CLI::App* convert_command = add_convert_command(program, convert);
   MeasureCommand measure;
   CLI::App* measure_command = add_measure_command(program, measure);
