@@ -18,13 +18,15 @@ struct Defect {
   std::size_t count;
 };
 
+enum class Side { kOutside, kCavity };
+
 /// Outsides or cavities that are turned the wrong way. None where a surface is not closed: the cavities in it would be
 /// taken for outsides.
-std::size_t count_inverted(const MeshCheck& mesh, bool cavities) {
+std::size_t count_inverted(const MeshCheck& mesh, Side side) {
   if (!all_are_closed(mesh)) return 0;
   return static_cast<std::size_t>(
       std::count_if(mesh.components.begin(), mesh.components.end(),
-                    [&](const MeshComponent& c) { return c.inverted && c.is_cavity() == cavities; }));
+                    [&](const MeshComponent& c) { return c.inverted && c.is_cavity() == (side == Side::kCavity); }));
 }
 
 std::vector<Defect> defects_of(const CheckFindings& found) {
@@ -48,9 +50,9 @@ std::vector<Defect> defects_of(const CheckFindings& found) {
       {"pairs of triangles that cross or touch", "pair of triangles that cross or touch", "intersecting_pairs",
        mesh.intersecting_pairs},
       {"outer surfaces whose faces turn inwards", "outer surface whose faces turn inwards", "inward_surfaces",
-       count_inverted(mesh, false)},
+       count_inverted(mesh, Side::kOutside)},
       {"cavities whose faces turn outwards", "cavity whose faces turn outwards", "outward_cavities",
-       count_inverted(mesh, true)}};
+       count_inverted(mesh, Side::kCavity)}};
   if (found.charges_outside)
     defects.push_back(
         {"charges outside the mesh", "charge outside the mesh", "charges_outside", found.charges_outside->size()});
@@ -60,25 +62,31 @@ std::vector<Defect> defects_of(const CheckFindings& found) {
   return defects;
 }
 
+/// The first few of a list, each as text_of() has it, in a line behind `what`; nothing if there are none.
+template <class Entry, class TextOf>
+std::string examples_line(const std::string& what, const std::vector<Entry>& entries, const TextOf& text_of) {
+  constexpr std::size_t kMostExamples = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostExamples, entries.size()); ++i)
+    text += (i == 0 ? "" : ", ") + text_of(entries[i]);
+  return text.empty() ? "" : "  " + what + "counted from 0: " + text + "\n";
+}
+
+std::string pair_text(const std::array<std::uint32_t, 2>& pair) { return line("%u and %u", pair[0], pair[1]); }
+
 std::string defects_text(const CheckFindings& found) {
   const MeshCheck& mesh = found.mesh;
-  constexpr std::size_t kMostExamples = 3;
   std::string text = "Defects\n";
   for (const Defect& defect : defects_of(found)) text += line("  %-49s %11zu\n", defect.text, defect.count);
   if (!all_are_closed(mesh)) text += "  a surface is not closed: which ones turn the wrong way is not known\n";
-  const std::size_t inward = count_inverted(mesh, false);
+  const std::size_t inward = count_inverted(mesh, Side::kOutside);
   if (inward > 0 && inward == mesh.components.size())
     text += "  all surfaces turn inwards: is this a cavity by itself, as --cavities separate writes it?\n";
-  std::string pairs;
-  for (std::size_t i = 0; i < std::min(kMostExamples, mesh.intersecting_examples.size()); ++i)
-    pairs +=
-        line("%s%u and %u", i == 0 ? "" : ", ", mesh.intersecting_examples[i][0], mesh.intersecting_examples[i][1]);
-  if (!pairs.empty()) text += "  triangles that cross or touch, counted from 0: " + pairs + "\n";
-  std::string charges;
+  text += examples_line("triangles that cross or touch, ", mesh.intersecting_examples, pair_text);
   if (found.charges_outside)
-    for (std::size_t i = 0; i < std::min(kMostExamples, found.charges_outside->size()); ++i)
-      charges += line("%s%u", i == 0 ? "" : ", ", (*found.charges_outside)[i]);
-  return charges.empty() ? text : text + "  atoms of charges outside, counted from 0: " + charges + "\n";
+    text += examples_line("atoms of charges outside, ", *found.charges_outside,
+                          [](std::uint32_t atom) { return std::to_string(atom); });
+  return text;
 }
 
 std::string shape_text(const MeshCheck& mesh) {
@@ -92,17 +100,13 @@ std::string shape_text(const MeshCheck& mesh) {
 }
 
 std::string near_text(const CheckFindings& found) {
-  constexpr std::size_t kMostExamples = 3;
   if (!found.near) return "";
   const NearVertices& near = *found.near;
   std::string text = line("Vertices nearer to each other than %.4g A: ", found.separation) +
                      counted(near.pairs, "pair", "pairs") +
                      line("%s, %zu of them joined by an edge, %zu crowded\n",
                           near.pairs == kMostNearPairs ? " or more" : "", near.short_edges, near.crowded);
-  std::string pairs;
-  for (std::size_t i = 0; i < std::min(kMostExamples, near.examples.size()); ++i)
-    pairs += line("%s%u and %u", i == 0 ? "" : ", ", near.examples[i][0], near.examples[i][1]);
-  if (!pairs.empty()) text += "  counted from 0: " + pairs + "\n";
+  text += examples_line("", near.examples, pair_text);
   if (near.crowded != 0 && !found.separation_is_required)
     text += "  WARNING: " + counted(near.crowded, "pair is", "pairs are") +
             " nearer than a quarter of the edges there; boundary-element solvers may not converge\n";

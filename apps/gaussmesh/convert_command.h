@@ -11,19 +11,18 @@
 
 namespace gaussmesh::app {
 
-struct ConvertOptions {
+struct ConvertCommand {
   std::string input;
   std::vector<std::string> outputs;
   std::optional<std::string> molecule;  ///< gives the nearest atoms
   MoleculeOptions reading;              ///< of the molecule
-  bool no_header = false;
   WriteOptions writing;
 };
 
-/// Adds the sub-command to the program; parsing fills `options`, which must outlive it. @return the sub-command
-CLI::App* add_convert_command(CLI::App& program, ConvertOptions& options);
+/// Adds the sub-command to the program; parsing fills `command`, which must outlive it. @return the sub-command
+CLI::App* add_convert_command(CLI::App& program, ConvertCommand& command);
 
 /// Reads the mesh and writes it. @return the exit code @throws InputError, OptionError
-int run_convert(const ConvertOptions& options);
+int run_convert(const ConvertCommand& command);
 
 }  // namespace gaussmesh::app

@@ -129,9 +129,9 @@ int run(int argc, char** argv) {
       ->check(file_name_of_option())
       ->group("Running");
   program.config_formatter(std::make_shared<ConfigFile>(program));
-  CheckOptions check;
+  CheckCommand check;
   CLI::App* check_command = add_check_command(program, check);
-  ConvertOptions convert;
+  ConvertCommand convert;
   CLI::App* convert_command = add_convert_command(program, convert);
   MeasureCommand measure;
   CLI::App* measure_command = add_measure_command(program, measure);
@@ -146,6 +146,7 @@ int run(int argc, char** argv) {
     std::cerr << "gaussmesh: " << message_of(program, error) << "\nRun with --help for more information.\n";
     return dynamic_cast<const CLI::FileError*>(&error) != nullptr ? kInput : kWrongUse;
   }
+  require_known_command(program);
   require_command_alone(program);
   if (!manual.empty()) return print_manual(program, manual);
   if (check_command->parsed()) return run_check(check);

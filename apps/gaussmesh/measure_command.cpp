@@ -51,10 +51,21 @@ std::string measured_json(const Measured& found) {
   return json_text(json);
 }
 
-/// One line for each atom: its number, counted from 1 in the order of the file, and its area.
-std::string areas_text(const std::vector<double>& areas) {
+/// A name as one field of a table; a dot stands for none, as in mmCIF.
+std::string field(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return " " + (name.empty() ? "." : name);
+}
+
+/// One line for each atom: its number, counted from 1 in the order of the file, its area, and what the file calls it.
+/// @param names  as many as areas, or none
+std::string areas_text(const std::vector<double>& areas, const std::vector<AtomName>& names) {
   std::string text;
-  for (std::size_t i = 0; i < areas.size(); ++i) text += line("%zu %.6f\n", i + 1, areas[i]);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const AtomName atom = names.empty() ? AtomName{} : names[i];
+    text += line("%zu %.6f", i + 1, areas[i]) + field(atom.name) + field(atom.residue) + field(atom.chain) +
+            field(atom.number) + "\n";
+  }
   return text;
 }
 
@@ -71,7 +82,8 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
                               ->check(file_name());
   app->add_option(
          "--atom-areas", command.atom_areas,
-         "write a line for each atom: its number, counted from 1, and the area nearest to it, A^2 (default: none)")
+         "write a line for each atom: its number, counted from 1, the area nearest to it (A^2), and its name, residue, "
+         "chain and residue number, . for what MOL does not say (default: none)")
       ->type_name("FILE")
       ->check(file_name_of_option())
       ->needs(molecule);
@@ -100,10 +112,15 @@ int run_measure(const MeasureCommand& command) {
                      " and " +
                      counted(found.mesh.bad_coordinates, "vertex without usable coordinates",
                              "vertices without usable coordinates"));
-  if (command.molecule)
-    found.by_atoms = measure_by_atoms(mesh, read_molecule(*command.molecule, command.reading, false).atoms);
+  AtomFile molecule;
+  if (command.molecule) {
+    MoleculeOptions reading = command.reading;
+    if (command.atom_areas) reading.reading.names = AtomNames::kKeep;
+    molecule = read_molecule(*command.molecule, reading);
+    found.by_atoms = measure_by_atoms(mesh, molecule.atoms);
+  }
   OutputFiles files;
-  if (command.atom_areas) files.add_text(areas_text(found.by_atoms->areas), *command.atom_areas);
+  if (command.atom_areas) files.add_text(areas_text(found.by_atoms->areas, molecule.names), *command.atom_areas);
   const bool is_taken = is_standard_output(command.atom_areas.value_or(""));
   put_report(measured_text(found), measured_json(found), command.json, is_taken ? std::cerr : std::cout,
              std::move(files));

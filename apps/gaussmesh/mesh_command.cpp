@@ -1,5 +1,6 @@
 #include "mesh_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -43,13 +44,14 @@ void require_spacing_for_improvement(const MeshCommand& command) {
 void require_sense(const MeshCommand& command) {
   if (command.molecule.empty()) throw OptionError("MOL: expected a file of atoms, got nothing; see --help");
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
+  require_header_to_leave_out(command.outputs, command.writing);
   require_spacing_for_improvement(command);
   const bool is_separate = command.cavities == "separate";
   if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
   for (const std::string& output : command.outputs) {
     // Its hole and region points are those of a whole molecule: a cavity by itself has nothing inside.
-    if (is_separate && format_of(output, writing_options(command.writing, command.no_header)).name == "smesh")
+    if (is_separate && format_of(output, command.writing).name == "smesh")
       throw OptionError("--cavities separate: expected a format that holds a surface alone, got smesh for '" + output +
                         "', which wants cavities together with what they are in");
   }
@@ -88,8 +90,7 @@ std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t
 
 /// Finds out what cannot be written where there are so many surfaces.
 void require_writable_files(const MeshCommand& command, std::size_t surfaces) {
-  require_writable_outputs(names_of_meshes(command, surfaces), command.report,
-                           writing_options(command.writing, command.no_header),
+  require_writable_outputs(names_of_meshes(command, surfaces), command.report, command.writing,
                            files_of_molecule(command.molecule, command.reading));
 }
 
@@ -127,11 +128,10 @@ void tell_of_input(const MeshCommand& command, const Surface& surface, const Ato
 
 /// What the formats of the outputs hold.
 VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result) {
-  const WriteOptions writing = writing_options(command.writing, command.no_header);
   VertexData data;
   data.normals = result.normals;
   for (const std::string& output : command.outputs) {
-    if (format_of(output, writing).held != HeldData::kAll) continue;
+    if (format_of(output, command.writing).held != HeldData::kAll) continue;
     data.atoms = find_nearest_atoms(result.mesh, atoms, command.options.threads);
     data.components = find_vertex_components(result.mesh, result.report.check);
     break;
@@ -142,7 +142,7 @@ VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>&
 /// Writes all meshes and the report, all of them or none; returns what the first output became.
 std::string write_all(const MeshCommand& command, const Product& product) {
   const auto& [surface, report] = product;
-  WriteOptions writing = writing_options(command.writing, command.no_header);
+  WriteOptions writing = command.writing;
   writing.threads = command.options.threads;
   OutputFiles files;
   std::string first = command.outputs.front();
@@ -239,7 +239,7 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
       ->take_all()
       ->check(file_name_of_option())
       ->group(group);
-  for (CLI::Option* option : add_format_options(program, command.writing, command.no_header)) option->group(group);
+  for (CLI::Option* option : add_format_options(program, command.writing)) option->group(group);
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
@@ -285,7 +285,8 @@ int run_mesh(const MeshCommand& command) {
   require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
   const Surface surface = surface_of(command.surface, command.reading);
-  const AtomFile input = read_molecule(command.molecule, surface.reading, command.quiet);
+  const AtomFile input =
+      read_molecule(command.molecule, surface.reading, command.quiet ? Warnings::kKeepBack : Warnings::kPrint);
   MeshOptions options = command.options;
   options.decay = surface.decay;
   options.isovalue = surface.isovalue;
@@ -293,9 +294,12 @@ int run_mesh(const MeshCommand& command) {
   options.measure_distance = !command.report.empty();
   if (command.max_memory == 0) options.memory_bytes = physical_memory();
   MeshResult result = [&] {
-    ProgressBar bar(!command.quiet, options.improve);
-    options.on_stage_end = [&](const std::string& stage) { bar.stage_ended(stage); };
-    options.on_improving = [&](double share_done) { bar.improving(share_done); };
+    std::optional<ProgressBar> bar;
+    if (!command.quiet) {
+      bar.emplace(options.improve);
+      options.on_stage_end = [&](const std::string& stage) { bar->stage_ended(stage); };
+      options.on_improving = [&](double share_done) { bar->improving(share_done); };
+    }
     return mesh_surface(input.atoms, options);
   }();
   tell_of_input(command, surface, input, result.report);

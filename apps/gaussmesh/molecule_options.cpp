@@ -37,10 +37,10 @@ std::vector<std::string> files_of_molecule(const std::string& path, const Molecu
   return {path, options.reading.radii_file.string()};
 }
 
-AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet) {
+AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, Warnings warnings) {
   AtomFile input =
       path == "-" ? read_atoms(std::cin, "standard input", options.reading) : read_atoms(path, options.reading);
-  if (!quiet)
+  if (warnings == Warnings::kPrint)
     for (const std::string& warning : input.warnings) std::cerr << "gaussmesh: warning: " << warning << "\n";
   input.atoms = add_probe(std::move(input.atoms), options.probe.value_or(0.0));
   return input;

@@ -24,8 +24,11 @@ std::vector<CLI::Option*> add_molecule_options(CLI::App& command, MoleculeOption
 /// What is read for the molecule, and must not be written over; names may be empty.
 std::vector<std::string> files_of_molecule(const std::string& path, const MoleculeOptions& options);
 
-/// Reads the molecule, prints its warnings unless `quiet`, and adds the probe.
+/// What becomes of the warnings of a reader.
+enum class Warnings { kPrint, kKeepBack };
+
+/// Reads the molecule, prints its warnings on standard error if they are to be, and adds the probe.
 /// @throws InputError, OptionError
-AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, bool quiet);
+AtomFile read_molecule(const std::string& path, const MoleculeOptions& options, Warnings warnings = Warnings::kPrint);
 
 }  // namespace gaussmesh::app

@@ -21,7 +21,7 @@ void require_other_file(const std::vector<std::string>& inputs, const std::strin
 
 }  // namespace
 
-std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header) {
+std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing) {
   std::vector<std::string> names;
   for (const MeshFormat& format : mesh_formats()) names.emplace_back(format.name);
   return {command
@@ -29,13 +29,17 @@ std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& wr
                           "format of all meshes: " + join_names(names, ", ") + " (default: by extension)")
               ->type_name("NAME")
               ->check(one_of(names)),
-          command.add_flag("--no-header", no_header,
-                           "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
+          command.add_flag_callback(
+              "--no-header", [&writing] { writing.msms_header = false; },
+              "MSMS files without their three lines of header, for PyGBe and pbj (default: off)")};
 }
 
-WriteOptions writing_options(WriteOptions writing, bool no_header) {
-  writing.msms_header = !no_header;
-  return writing;
+void require_header_to_leave_out(const std::vector<std::string>& outputs, const WriteOptions& writing) {
+  if (writing.msms_header) return;
+  const auto is_msms = [&](const std::string& output) { return format_of(output, writing).name == "msms"; };
+  if (std::any_of(outputs.begin(), outputs.end(), is_msms)) return;
+  throw OptionError("--no-header: expected a mesh to write in the format msms, got " +
+                    std::string(format_of(outputs.front(), writing).name) + " for '" + outputs.front() + "'");
 }
 
 void require_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {

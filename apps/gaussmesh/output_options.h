@@ -9,11 +9,12 @@
 
 namespace gaussmesh::app {
 
-/// Adds --format and --no-header; both variables must outlive the command. @return the options
-std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing, bool& no_header);
+/// Adds --format and --no-header; `writing` must outlive the command. @return the options
+std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& writing);
 
-/// `writing` as it is meant, with the flag.
-WriteOptions writing_options(WriteOptions writing, bool no_header);
+/// Only MSMS has a header that --no-header leaves out. @throws OptionError if it is asked for where none of `outputs`,
+/// which are at least one, is MSMS
+void require_header_to_leave_out(const std::vector<std::string>& outputs, const WriteOptions& writing);
 
 /// Finds out before the work what cannot be read and written; names may be empty.
 ///

@@ -1,6 +1,7 @@
 #include "parse_errors.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,20 @@ std::vector<std::string> quoted(std::vector<std::string> words) {
   return words;
 }
 
+/// What there is to say where the first word is no file, but nearly a command; else nothing.
+std::string mistyped_command(const CLI::App& program) {
+  constexpr std::size_t kMostEdits = 2;
+  const std::vector<std::string> words = program.get_option("molecule")->results();
+  std::error_code error;  // of names that are too long
+  if (&called(program) != &program || words.empty() || std::filesystem::exists(words.front(), error)) return "";
+  std::vector<std::string> commands;
+  for (const CLI::App* command : subcommands(program)) commands.push_back(command->get_name());
+  const std::string& word = words.front();
+  const std::string nearest = nearest_name(word, commands);
+  if (!is_beginning(word, nearest) && edit_distance(lower_case(word), nearest) > kMostEdits) return "";
+  return "expected a file of atoms or a command, got '" + word + "'; did you mean '" + nearest + "'?";
+}
+
 /// An option that there is not. Its value, if it has one, is left aside.
 std::string unknown_option(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
@@ -38,16 +53,13 @@ std::string unknown_option(const CLI::App& program, const std::string& word) {
          (is_letter ? "" : did_you_mean(name, names));
 }
 
-/// More names of files than there is use for. The first may be a sub-command that was not written well.
+/// More names of files than there is use for.
 std::string too_many_words(const CLI::App& program, const std::vector<std::string>& extras) {
   const std::string got = join_names(quoted(extras), ", ");
   if (&called(program) != &program)
     return "gaussmesh " + called(program).get_name() + ": expected no further file, got " + got;
   const std::vector<std::string> molecule = program.get_option("molecule")->results();
-  std::vector<std::string> commands;
-  for (const CLI::App* command : subcommands(program)) commands.push_back(command->get_name());
-  return "expected one molecule, got " + join_names(quoted(molecule), ", ") + " and " + got +
-         (molecule.empty() ? "" : did_you_mean(molecule.front(), commands));
+  return "expected one molecule, got " + join_names(quoted(molecule), ", ") + " and " + got;
 }
 
 /// The option that CLI11's message is about, which begins with its name or has it last; nothing if there is none.
@@ -110,6 +122,8 @@ std::string in_own_words(const CLI::App& program, const CLI::ParseError& error) 
 }  // namespace
 
 std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
+  const std::string command = mistyped_command(program);  // whose options are not those of meshing
+  if (!command.empty()) return command;
   const std::vector<std::string> extras = program.remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
@@ -117,6 +131,11 @@ std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return too_many_words(program, extras);
   const auto config = std::dynamic_pointer_cast<const ConfigFile>(program.get_config_formatter());
   return (config ? config->place_of(error.what()) : "") + in_own_words(program, error);
+}
+
+void require_known_command(const CLI::App& program) {
+  const std::string command = mistyped_command(program);
+  if (!command.empty()) throw OptionError(command);
 }
 
 void require_command_alone(const CLI::App& program) {

@@ -10,6 +10,11 @@ namespace gaussmesh::app {
 /// which name is near to one that there is not. CLI11 lists what fits nowhere backwards, and knows no near names.
 std::string message_of(const CLI::App& program, const CLI::ParseError& error);
 
+/// A sub-command that was not written well is taken for the molecule.
+///
+/// @throws OptionError where the molecule is no file, and nearly the name of a sub-command
+void require_known_command(const CLI::App& program);
+
 /// Options before the name of a sub-command are those of meshing, and nothing is meshed then. @throws OptionError if
 /// there are any
 void require_command_alone(const CLI::App& program);

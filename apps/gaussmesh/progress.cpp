@@ -25,7 +25,7 @@ constexpr std::pair<const char*, double> kStages[] = {{"boxes and roots", 0.03},
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool is_wanted, bool improves) {
+ProgressBar::ProgressBar(bool improves) {
   double total = 0.0;
   for (const auto& [name, share] : kStages) {
     if (!improves && std::string_view(name) == kImprove) continue;
@@ -33,7 +33,7 @@ ProgressBar::ProgressBar(bool is_wanted, bool improves) {
     total += share;
   }
   for (Stage& stage : stages_) stage.share /= total;
-  if (is_wanted && ::isatty(STDERR_FILENO)) thread_ = std::thread([this] { show_until_done(); });
+  if (::isatty(STDERR_FILENO)) thread_ = std::thread([this] { show_until_done(); });
 }
 
 ProgressBar::~ProgressBar() {

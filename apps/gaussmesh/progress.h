@@ -16,9 +16,8 @@ namespace gaussmesh::app {
 /// Where standard error is no terminal there is no bar.
 class ProgressBar {
  public:
-  /// @param is_wanted  false: no bar at all
-  /// @param improves   whether there is a stage that improves the triangles
-  ProgressBar(bool is_wanted, bool improves);
+  /// @param improves  whether there is a stage that improves the triangles
+  explicit ProgressBar(bool improves);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;

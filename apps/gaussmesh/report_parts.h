@@ -38,8 +38,8 @@ MeshFile read_mesh_argument(const std::string& path);
 /// JSON as it is written, with a newline at the end; names that are not UTF-8 are made so.
 std::string json_text(const Json& json);
 
-/// Writes the JSON if a file is named, together with `files`, and prints the text to `out`: "-" puts the JSON on standard
-/// output in place of the text.
+/// Writes the JSON if a file is named, together with `files`, and prints the text to `out`: "-" puts the JSON on
+/// standard output in place of the text.
 void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file,
                 std::ostream& out = std::cout, OutputFiles files = {});
 

@@ -28,9 +28,8 @@ struct MeshOptions {
   double memory_bytes = 0.0;      ///< what there is for the mesh: one that surely takes more is not begun; 0: not known
   bool allow_uncertified = false;  ///< where c is too near a critical value, mesh a level beside it
   std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
-  std::function<void(double share_done)>
-      on_improving;  ///< called often within the stage `improve`: on any thread, on several
-                     ///< at a time, and not always in rising order
+  /// Called often within the stage `improve`: on any thread, on several at a time, and not always in rising order.
+  std::function<void(double share_done)> on_improving;
 };
 
 /// The spacing (A) that gives about this many vertices per A^2, > 0: equilateral triangles of edge s have

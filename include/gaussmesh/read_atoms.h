@@ -16,10 +16,19 @@
 
 namespace gaussmesh {
 
+/// What a file calls an atom. Empty is what it does not say, or where it is not clear.
+struct AtomName {
+  std::string name;
+  std::string residue;
+  std::string chain;
+  std::string number;  ///< of the residue, with its insertion code
+};
+
 /// What a reader found.
 struct AtomFile {
   std::vector<Atom> atoms;            ///< in the order of the file; at least one
   std::vector<std::size_t> lines;     ///< of each atom, from 1; of mmCIF its number in the table, from 1
+  std::vector<AtomName> names;        ///< of each atom if they are to be kept; else, and of XYZR, empty
   std::vector<std::string> warnings;  ///< `file:line: ...`, each worth a line on the terminal
 };
 
@@ -32,6 +41,9 @@ inline constexpr double kLargestRadius = 1e5;
 /// Radii (A) above this are read but warned of: atoms stay below 4 A, residues as one bead below 6 A.
 inline constexpr double kSuspectRadius = 10.0;
 
+/// Whether names are kept: some 130 bytes for each atom, which no stage of meshing needs.
+enum class AtomNames { kLeaveOut, kKeep };
+
 struct ReadOptions {
   std::string format;  ///< one of atom_formats(); empty: the name decides
   std::string radii;   ///< one of radius_set_names(), for PDB and mmCIF; other files have radii of their own
@@ -43,6 +55,8 @@ struct ReadOptions {
   /// every alpha carbon, and `CA CA 2.3` a calcium ion. Any other line, a radius out of range and an entry that stands
   /// twice are an InputError.
   std::filesystem::path radii_file = {};
+
+  AtomNames names = AtomNames::kLeaveOut;
 };
 
 /// pqr, xyzr, pdb, mmcif.
@@ -87,7 +101,9 @@ AtomFile read_atoms(std::istream& input, std::string_view name, const ReadOption
 ///   within +-kLargestCoordinate, radii in [0, kLargestRadius]. A radius of 0 is normal.
 /// - Lines end in LF, CRLF or CR. A UTF-8 byte order mark is skipped.
 /// - Of several models (MODEL ... ENDMDL) the first is read; a warning counts the atoms left out. Reading goes on
-///   after TER and after END; atoms after END are warned of. Alternate locations are all read.
+///   after TER and after END; atoms after END are warned of, since files of a complex are often joined so. But where
+///   they are those before END over again, by name and in the same order, they may be other frames, copies, or other
+///   molecules of the same kind: that is an error. Alternate locations are all read.
 /// - Blank lines, # comments and the other records of PDB are passed over; a warning counts lines of any other
 ///   kind.
 /// - A warning names the first radius above kSuspectRadius, and the largest. A file of at least 4 atoms whose
@@ -97,7 +113,7 @@ AtomFile read_atoms(std::istream& input, std::string_view name, const ReadOption
 ///
 /// @throws InputError  on anything else in an atom record, above all a missing field; on text without atoms; on
 ///                     UTF-16, NUL bytes, PQR-XML and mmCIF
-AtomFile parse_pqr(std::string_view text, std::string_view name);
+AtomFile parse_pqr(std::string_view text, std::string_view name, AtomNames names = AtomNames::kLeaveOut);
 
 /// Reads XYZR text that is already in memory; `name` stands for the file in messages.
 ///
@@ -132,12 +148,14 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 ///                      no radius for an atom, or there is none; on atoms behind END that are not before it; on mmCIF
 ///                      and XML
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
-                   const std::filesystem::path& radii_file = {});
+                   const std::filesystem::path& radii_file = {}, AtomNames names = AtomNames::kLeaveOut);
 
-/// Reads mmCIF text that is already in memory: its loop _atom_site, as parse_pdb does. Where that has no label_atom_id or label_comp_id, the tags of the authors (auth_...) are read instead.
+/// Reads mmCIF text that is already in memory: its loop _atom_site, as parse_pdb does. Where that has no label_atom_id
+/// or label_comp_id, the tags of the authors (auth_...) are read instead. Names that are kept have the authors' chains
+/// and numbers, which PDB files of the same entry have.
 ///
 /// @throws InputError  as parse_pdb does, and if the text is no CIF, a column is missing, or several blocks have atoms
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
-                     const std::filesystem::path& radii_file = {});
+                     const std::filesystem::path& radii_file = {}, AtomNames names = AtomNames::kLeaveOut);
 
 }  // namespace gaussmesh

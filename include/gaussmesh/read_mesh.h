@@ -18,9 +18,9 @@ struct MeshFile {
 
 /// Reads a mesh of triangles, plain or gzipped.
 ///
-/// PLY, VTP and Gmsh files are known by their first bytes; OFF, OBJ, STL, TetGen .smesh and MSMS by their extension, in any
-/// case, before a `.gz` if there is one; files of any other name, and streams, by what is in them, which tells all but
-/// MSMS. Of MSMS either file may be named: both are read.
+/// PLY, VTP and Gmsh files are known by their first bytes; OFF, OBJ, STL, TetGen .smesh and MSMS by their extension, in
+/// any case, before a `.gz` if there is one; files of any other name, and streams, by what is in them, which tells all
+/// but MSMS. Of MSMS either file may be named: both are read.
 ///
 /// - OFF: comments, blank lines, colours of faces, and colours and places in a texture of vertices (`COFF`, `STOFF`)
 ///   are passed over. Normals of `NOFF` and `CNOFF` are kept. Binary OFF, and vertices in four or more dimensions, are
@@ -32,8 +32,8 @@ struct MeshFile {
 /// - Gmsh: versions 2.2 and 4.1 in ASCII. Triangles of 3 nodes are kept and elements of other kinds passed over;
 ///   then nodes in no triangle are left out.
 /// - smesh: nodes and facets of one triangle each, counted from 0 or from 1.
-/// - VTP: triangles of all pieces; arrays as text, in base64 or as they are in memory, plain or by zlib, in the element or
-///   appended. Normals, and arrays `atom` and `component` of whole numbers, are kept; vertices and lines are passed
+/// - VTP: triangles of all pieces; arrays as text, in base64 or as they are in memory, plain or by zlib, in the element
+///   or appended. Normals, and arrays `atom` and `component` of whole numbers, are kept; vertices and lines are passed
 ///   over. Strips, and data by LZ4 or LZMA, are refused.
 /// - MSMS: with header or without; normals, and the nearest atom where every vertex has one.
 ///

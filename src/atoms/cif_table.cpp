@@ -81,6 +81,7 @@ CifTable read_cif_table(std::string_view text, std::string_view name, const std:
   cif::Block& block = *found;
   const std::string where = file + ":" + std::to_string(line);
   std::vector<std::string> tags;
+  tags.reserve(columns.size());
   for (const CifColumn& column : columns) tags.push_back(choose_tag(block, prefix, column, where));
   cif::Table table = block.find(prefix, tags);
   if (!table.ok())

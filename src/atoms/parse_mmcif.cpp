@@ -10,20 +10,25 @@
 namespace gaussmesh {
 namespace {
 
-/// Columns of the table, in the order of kColumns. Tags of authors stand in for those that the dictionary asks for.
-enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kNumber, kInsertion, kX, kY, kZ };
-constexpr auto kOptional = CifColumn::Need::kOptional;
-const std::vector<CifColumn> kColumns = {{"label_atom_id", "auth_atom_id"},
-                                         {"label_comp_id", "auth_comp_id"},
-                                         {"type_symbol", ""},
-                                         {"label_alt_id", "", kOptional},
-                                         {"pdbx_PDB_model_num", "", kOptional},
-                                         {"label_asym_id", "auth_asym_id", kOptional},
-                                         {"auth_seq_id", "label_seq_id", kOptional},
-                                         {"pdbx_PDB_ins_code", "", kOptional},
-                                         {"Cartn_x", ""},
-                                         {"Cartn_y", ""},
-                                         {"Cartn_z", ""}};
+/// Columns of the table, in the order of columns().
+enum Column { kName, kResidue, kElement, kAlternate, kModel, kChain, kAuthorChain, kNumber, kInsertion, kX, kY, kZ };
+
+/// Tags of authors stand in for those that the dictionary asks for.
+std::vector<CifColumn> columns() {
+  constexpr auto kOptional = CifColumn::Need::kOptional;
+  return {{"label_atom_id", "auth_atom_id"},
+          {"label_comp_id", "auth_comp_id"},
+          {"type_symbol", ""},
+          {"label_alt_id", "", kOptional},
+          {"pdbx_PDB_model_num", "", kOptional},
+          {"label_asym_id", "auth_asym_id", kOptional},
+          {"auth_asym_id", "label_asym_id", kOptional},
+          {"auth_seq_id", "label_seq_id", kOptional},
+          {"pdbx_PDB_ins_code", "", kOptional},
+          {"Cartn_x", ""},
+          {"Cartn_y", ""},
+          {"Cartn_z", ""}};
+}
 
 double coordinate(const std::string& text, const std::string& where) {
   const auto value = parse_number(text);
@@ -34,9 +39,9 @@ double coordinate(const std::string& text, const std::string& where) {
 }  // namespace
 
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,
-                     const std::filesystem::path& radii_file) {
-  StructureBuilder builder(name, {radii, radii_file});
-  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", kColumns);
+                     const std::filesystem::path& radii_file, AtomNames names) {
+  StructureBuilder builder(name, {radii, radii_file}, names);
+  const CifTable table = read_cif_table(require_text(text, name), name, "_atom_site.", columns());
   std::size_t number = 0;
   for (const std::vector<std::string>& row : table.rows) {
     const std::string where = std::string(name) + ": atom " + std::to_string(++number);
@@ -47,6 +52,8 @@ AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::st
                  .element = row[kElement],
                  .element_place = "type_symbol",
                  .site = row[kChain] + " " + row[kNumber] + row[kInsertion],
+                 .chain = row[kAuthorChain],
+                 .number = row[kNumber] + row[kInsertion],
                  .alternate = row[kAlternate],
                  .model = row[kModel],
                  .x = coordinate(row[kX], where),

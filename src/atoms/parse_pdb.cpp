@@ -123,8 +123,8 @@ class FrameAtoms {
 /// Reads one text; made anew for each.
 class PdbParser {
  public:
-  PdbParser(std::string_view text, std::string_view name, AtomRadii radii)
-      : name_(name), lines_(text), builder_(name, std::move(radii)) {}
+  PdbParser(std::string_view text, std::string_view name, AtomRadii radii, AtomNames names)
+      : name_(name), lines_(text), builder_(name, std::move(radii), names) {}
 
   AtomFile parse() {
     while (const auto line = lines_.next()) read_line(*line);
@@ -168,6 +168,8 @@ class PdbParser {
                   .element = element(record),
                   .element_place = "columns 77-78",
                   .site = std::string(columns(record, 22, 22)) + " " + std::string(columns(record, 23, 27)),
+                  .chain = columns(record, 22, 22),
+                  .number = std::string(columns(record, 23, 27)),
                   .alternate = columns(record, 17, 17),
                   .model = {},
                   .x = x,
@@ -199,8 +201,8 @@ class PdbParser {
 }  // namespace
 
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
-                   const std::filesystem::path& radii_file) {
-  return PdbParser(require_text(text, name), name, {radii, radii_file}).parse();
+                   const std::filesystem::path& radii_file, AtomNames names) {
+  return PdbParser(require_text(text, name), name, {radii, radii_file}, names).parse();
 }
 
 }  // namespace gaussmesh

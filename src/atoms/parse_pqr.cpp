@@ -3,6 +3,7 @@
 // Which fields of a record are its numbers is pqr_record.h; what the whole file gives away is pqr_checks.h.
 #include "atoms/atom_fields.h"
 #include "atoms/pqr_checks.h"
+#include "atoms/pqr_names.h"
 #include "atoms/pqr_record.h"
 #include "atoms/unknown_lines.h"
 #include "core/number_text.h"
@@ -19,7 +20,7 @@ struct FoundAtom {
 /// Reads one text; made anew for each.
 class PqrParser {
  public:
-  PqrParser(std::string_view text, std::string_view name) : name_(name), lines_(text) {
+  PqrParser(std::string_view text, std::string_view name, AtomNames names) : name_(name), names_(names), lines_(text) {
     constexpr std::size_t kTypicalRecord = 70;
     file_.atoms.reserve(text.size() / kTypicalRecord);
     file_.lines.reserve(text.size() / kTypicalRecord);
@@ -34,24 +35,23 @@ class PqrParser {
   [[noreturn]] void fail_at_layout(std::string_view line) const;
   void start_model();
   void end_model();
-  void note_end();
   void warn_of_models();
-  void warn_of_end();
+  void note_names(std::string_view line, std::string_view rest, std::string_view x);
   LinePlace place() const { return {name_, lines_.number()}; }
 
   std::string_view name_;
+  AtomNames names_;
   LineReader lines_;
   FieldSplitter splitter_;
   AtomFile file_;
   LargeRadii large_radii_;
   PdbCheck pdb_check_;
   MissingFieldCheck missing_field_check_;
+  EndCheck end_check_;
 
   bool has_model_ = false;
   std::optional<std::size_t> model_end_line_;  // of the first model
   std::size_t atoms_in_other_models_ = 0;
-  std::optional<std::size_t> end_line_;  // of the first END behind an atom
-  std::size_t atoms_after_end_ = 0;
   UnknownLines unknown_lines_;
 };
 
@@ -65,9 +65,10 @@ AtomFile PqrParser::parse() {
   }
   missing_field_check_.require_complete(name_);
   pdb_check_.require_pqr(file_.atoms.size(), name_);
+  end_check_.require_other_atoms(name_);
   large_radii_.warn(name_, file_);
   warn_of_models();
-  warn_of_end();
+  end_check_.warn(name_, file_);
   unknown_lines_.warn(name_, file_);
   return std::move(file_);
 }
@@ -90,7 +91,7 @@ void PqrParser::read_line(std::string_view line) {
       end_model();
       break;
     case RecordKind::kEnd:
-      note_end();
+      end_check_.end(lines_.number());
       break;
     case RecordKind::kPassedOver:
       break;
@@ -114,21 +115,24 @@ void PqrParser::end_model() {
   }
 }
 
-void PqrParser::note_end() {
-  if (!end_line_ && !file_.atoms.empty()) {
-    end_line_ = lines_.number();
-  }
-}
-
 void PqrParser::read_atom(std::string_view line, std::string_view rest) {
   const FoundAtom found = find_atom(line, rest);
   require_in_range(found.atom, found.numbers.fields, place());
   missing_field_check_.add(found.numbers, lines_.number());
   pdb_check_.add(found.atom, found.numbers.fields, line, lines_.number());
   large_radii_.add(found.atom.radius, lines_.number());
-  atoms_after_end_ += end_line_ ? 1 : 0;
   file_.atoms.push_back(found.atom);
   file_.lines.push_back(lines_.number());
+  note_names(line, rest, found.numbers.fields[0]);
+}
+
+/// @param rest  of the line, behind ATOM or HETATM
+/// @param x     in the same line, where the numbers begin
+void PqrParser::note_names(std::string_view line, std::string_view rest, std::string_view x) {
+  const std::string_view leading = trim(rest.substr(0, static_cast<std::size_t>(x.data() - rest.data())));
+  if (names_ == AtomNames::kKeep) file_.names.push_back(name_of(splitter_.split(leading)));
+  const std::size_t end_of_serial = std::min(leading.find_first_of(" \t\v\f"), leading.size());
+  end_check_.add(leading.substr(end_of_serial), trim(line), lines_.number());
 }
 
 FoundAtom PqrParser::find_atom(std::string_view line, std::string_view rest) {
@@ -171,18 +175,10 @@ void PqrParser::warn_of_models() {
   }
 }
 
-void PqrParser::warn_of_end() {
-  if (atoms_after_end_ > 0) {
-    file_.warnings.push_back(to_string({name_, *end_line_}) + ": END is followed by " +
-                             counted(atoms_after_end_, "atom", "atoms") +
-                             (atoms_after_end_ == 1 ? " that is" : " that are") + " read too");
-  }
-}
-
 }  // namespace
 
-AtomFile parse_pqr(std::string_view text, std::string_view name) {
-  return PqrParser(require_text(text, name), name).parse();
+AtomFile parse_pqr(std::string_view text, std::string_view name, AtomNames names) {
+  return PqrParser(require_text(text, name), name, names).parse();
 }
 
 }  // namespace gaussmesh

@@ -47,7 +47,7 @@ std::string element_of_name(std::string_view name, std::string_view residue) {
   const std::string upper_residue = upper_case(residue);
   const auto first = std::find_if(upper_name.begin(), upper_name.end(), is_letter);
   if (first == upper_name.end()) return {};
-  const std::string letters(first, std::find(first, upper_name.end(), ' '));
+  std::string letters(first, std::find(first, upper_name.end(), ' '));
   if (is_standard_residue(upper_residue)) {
     if (letters == "SE") return letters;
     if (holds(kOrganic, letters[0]) || letters[0] == 'D') return letters.substr(0, 1);

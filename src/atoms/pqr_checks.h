@@ -1,4 +1,5 @@
-// What only all the records of a PQR file together give away: that it is a PDB file, that a value is missing.
+// What only all the records of a PQR file together give away: that it is a PDB file, that a value is missing, that what
+// stands behind END is what stands before it.
 //
 // Single records are pqr_record.h.
 #pragma once
@@ -7,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "atoms/atom_fields.h"
 #include "atoms/pqr_record.h"
+#include "core/number_text.h"
 
 namespace gaussmesh {
 
@@ -59,7 +62,6 @@ class PdbCheck {
 class MissingFieldCheck {
  public:
   void add(const NumberFields& found, std::size_t line) {
-    constexpr std::size_t kLongestChain = 2;
     const std::size_t leading = found.leading.size();
     const bool is_suspect = leading > 0 && found.leading.back().size() <= kLongestChain &&
                             is_integer(found.fields[0]) && has_point(found.fields[1]) && has_point(found.fields[2]);
@@ -87,6 +89,53 @@ class MissingFieldCheck {
   std::optional<std::size_t> suspect_line_;
   std::size_t suspect_leading_ = 0;
   std::string_view suspect_x_;
+};
+
+/// Tells what is joined at END, as the chains of a complex often are, from the same atoms over again, which may be
+/// frames, copies, or more molecules of one kind.
+class EndCheck {
+ public:
+  /// Notes an END in that line. The first one behind an atom counts.
+  void end(std::size_t line) {
+    if (!end_line_ && !names_.empty()) end_line_ = line;
+  }
+
+  /// Notes an atom. Its record, and `names`, the part of it between serial number and x, must outlive this.
+  void add(std::string_view names, std::string_view record, std::size_t line) {
+    if (!end_line_) {
+      names_.push_back(names);
+      return;
+    }
+    if (behind_ == 0) {
+      first_record_ = record;
+      first_line_ = line;
+    }
+    is_repetition_ = is_repetition_ && names == names_[behind_ % names_.size()];
+    ++behind_;
+  }
+
+  /// Throws InputError if the atoms behind END are once or several times those before it, in the same order.
+  void require_other_atoms(std::string_view name) const {
+    if (behind_ == 0 || !is_repetition_ || behind_ % names_.size() != 0) return;
+    fail_at({name, first_line_},
+            "other atoms behind END in line " + std::to_string(*end_line_) + " than those before it", first_record_,
+            " and so on, as before; keep one of the frames or copies, or if all are to be one molecule, take END out");
+  }
+
+  /// Adds a warning to `file`, named `name`, if there are atoms behind END.
+  void warn(std::string_view name, AtomFile& file) const {
+    if (behind_ == 0) return;
+    file.warnings.push_back(to_string({name, *end_line_}) + ": END is followed by " +
+                            counted(behind_, "atom that is", "atoms that are") + " read too");
+  }
+
+ private:
+  std::optional<std::size_t> end_line_;
+  std::vector<std::string_view> names_;  // of the atoms before END
+  std::size_t behind_ = 0;               // atoms
+  bool is_repetition_ = true;            // as far as they go
+  std::string_view first_record_;        // behind END
+  std::size_t first_line_ = 0;
 };
 
 }  // namespace gaussmesh

@@ -84,9 +84,11 @@ inline Record classify_record(std::string_view content) {
   return {kind_of_other_record(content), {}};
 }
 
+/// Chains are no longer than this: names of residues mostly are.
+inline constexpr std::size_t kLongestChain = 2;
+
 /// True for a residue number, alone or with chain and insertion code: 7, -7, A1001, 1B, ****.
 inline bool is_residue_number(std::string_view field) {
-  constexpr std::size_t kLongestChain = 2;
   if (field.size() > 1 && is_letter(field.back())) {
     field.remove_suffix(1);
   }

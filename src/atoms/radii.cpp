@@ -247,9 +247,13 @@ std::optional<double> RadiusSet::find(std::string_view residue, std::string_view
   const std::string own_residue = upper_case(residue);
   const std::string own_atom = upper_case(atom);
   const std::string canonical_name(canonical_atom(own_atom));
-  for (const std::string& residue_name : {own_residue, std::string(canonical_residue(own_residue))})
-    for (const std::string& atom_name : {own_atom, canonical_name})
-      if (const auto radius = find_entry(residue_name + " " + atom_name)) return radius;
+  for (const std::string& residue_name : {own_residue, std::string(canonical_residue(own_residue))}) {
+    for (const std::string& atom_name : {own_atom, canonical_name}) {
+      std::string key = residue_name;
+      key.append(" ").append(atom_name);
+      if (const auto radius = find_entry(key)) return radius;
+    }
+  }
   return std::nullopt;
 }
 

@@ -43,16 +43,15 @@ AtomFile parse_format(std::string_view data, std::string_view name, const std::s
                       const ReadOptions& options) {
   if (format == "xyzr" || format == "pqr") {
     require_no_radii(format, name, options);
-    return format == "xyzr" ? parse_xyzr(data, name) : parse_pqr(data, name);
+    return format == "xyzr" ? parse_xyzr(data, name) : parse_pqr(data, name, options.names);
   }
   if (options.radii.empty() && options.radii_file.empty()) {
     throw OptionError(std::string(name) +
                       ": expected radii for a file that has none: choose --radii bondi, amber or charmm, or "
-                      "--radii-file, or make a PQR "
-                      "file of it with pdb2pqr");
+                      "--radii-file, or make a PQR file of it with pdb2pqr");
   }
-  return format == "pdb" ? parse_pdb(data, name, options.radii, options.radii_file)
-                         : parse_mmcif(data, name, options.radii, options.radii_file);
+  return format == "pdb" ? parse_pdb(data, name, options.radii, options.radii_file, options.names)
+                         : parse_mmcif(data, name, options.radii, options.radii_file, options.names);
 }
 
 AtomFile parse_data(std::string_view data, std::string_view name, const ReadOptions& options) {

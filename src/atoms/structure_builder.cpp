@@ -56,6 +56,8 @@ void StructureBuilder::add(const AtomSite& site) {
   }
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
   file_.lines.push_back(site.line);
+  if (names_ == AtomNames::kLeaveOut) return;
+  file_.names.push_back({std::string(site.name), std::string(site.residue), std::string(site.chain), site.number});
 }
 
 void StructureBuilder::end_model(std::size_t line) {

@@ -24,6 +24,8 @@ struct AtomSite {
   std::string element;             ///< empty if there is none
   std::string_view element_place;  ///< where the file has elements, for messages
   std::string site;                ///< chain, number and insertion code of the residue: the same for all its atoms
+  std::string_view chain;          ///< as AtomName has it
+  std::string number;              ///< likewise
   std::string_view alternate;      ///< location; empty if there is only one
   std::string_view model;          ///< the same for all atoms of a model, or empty where end_model parts them
   double x = 0.0, y = 0.0, z = 0.0;
@@ -33,7 +35,8 @@ struct AtomSite {
 /// leaves out.
 class StructureBuilder {
  public:
-  StructureBuilder(std::string_view file, AtomRadii radii) : file_name_(file), radii_(std::move(radii)) {}
+  StructureBuilder(std::string_view file, AtomRadii radii, AtomNames names)
+      : file_name_(file), radii_(std::move(radii)), names_(names) {}
 
   /// @throws InputError if the radii have none for the atom, or a coordinate is out of range
   void add(const AtomSite& site);
@@ -50,6 +53,7 @@ class StructureBuilder {
 
   std::string file_name_;
   AtomRadii radii_;
+  AtomNames names_;
   AtomFile file_;
   bool has_model_ = false;
   std::string model_;                              // the first

@@ -49,7 +49,6 @@ class MeshLines {
   }
 
   std::span<const std::string_view> fields() const { return fields_; }
-  std::string_view line() const { return line_; }
 
   /// Field `i` as a finite number. @throws InputError if there is none
   double number(std::size_t i, std::string_view expected) const {

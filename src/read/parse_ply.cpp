@@ -164,8 +164,8 @@ class AsciiNumbers {
 /// Hands out the numbers behind a binary header.
 class BinaryNumbers {
  public:
-  BinaryNumbers(std::string_view bytes, std::string_view name, std::size_t offset, bool is_big_endian)
-      : bytes_(bytes), name_(name), offset_(offset), is_big_endian_(is_big_endian) {}
+  BinaryNumbers(std::string_view bytes, std::string_view name, std::size_t offset, std::endian order)
+      : bytes_(bytes), name_(name), offset_(offset), order_(order) {}
 
   double next(const Type& type) {
     if (bytes_.size() - position_ < type.bytes) {
@@ -174,7 +174,7 @@ class BinaryNumbers {
     }
     std::array<char, 8> value{};
     const char* const from = bytes_.data() + position_;
-    if (is_big_endian_) {
+    if (order_ == std::endian::big) {
       std::reverse_copy(from, from + type.bytes, value.begin());
     } else {
       std::copy(from, from + type.bytes, value.begin());
@@ -209,7 +209,7 @@ class BinaryNumbers {
   std::string_view bytes_;
   std::string_view name_;
   std::size_t offset_;
-  bool is_big_endian_;
+  std::endian order_;
   std::size_t position_ = 0;
 };
 
@@ -313,7 +313,8 @@ MeshFile parse_ply(std::string_view bytes, std::string_view name) {
   const std::string_view body = bytes.substr(header.size);
   if (header.encoding == Encoding::kAscii)
     return read_elements(header, AsciiNumbers(require_text(body, name), name, header.lines + 1));
-  return read_elements(header, BinaryNumbers(body, name, header.size, header.encoding == Encoding::kBigEndian));
+  const std::endian order = header.encoding == Encoding::kBigEndian ? std::endian::big : std::endian::little;
+  return read_elements(header, BinaryNumbers(body, name, header.size, order));
 }
 
 }  // namespace gaussmesh

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "core/hash.h"
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
 
@@ -20,8 +21,8 @@ constexpr std::size_t kNormal = 12;
 struct PointHash {
   std::size_t operator()(const Point& p) const {
     std::uint64_t hash = 0;
-    for (const double x : p) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0xBF58476D1CE4E5B9u, hash ^= hash >> 31;
-    return hash;
+    for (const double x : p) hash = add_to_hash(hash, std::bit_cast<std::int64_t>(x));
+    return spread_hash(hash);
   }
 };
 

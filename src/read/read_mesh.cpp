@@ -63,10 +63,9 @@ MeshFile parse_by_content(std::string_view bytes, std::string_view name) {
              "; MSMS is known by the extensions .vert and .face alone");
 }
 
-/// `name` with `from` before the last dot - or before a .gz - replaced by `to`: from a.vert.gz to a.face.gz.
+/// `name`, which has the extension `from`, with `to` in its place: from a.vert.gz to a.face.gz.
 std::string sibling(std::string name, std::string_view from, std::string_view to) {
-  const std::size_t ending = has_extension(name, from) && !name.ends_with(from) ? name.size() - 3 : name.size();
-  return name.replace(ending - from.size(), from.size(), to);
+  return name.replace(without_gzip(name).size() - from.size(), from.size(), to);
 }
 
 /// Reads the file of MSMS that is named and the one beside it.

@@ -24,7 +24,7 @@ class RawSource {
 
   /// The next bytes, or as many as are left.
   std::string take(std::size_t count) {
-    const std::string taken(left_.substr(0, count));
+    std::string taken(left_.substr(0, count));
     left_.remove_prefix(taken.size());
     return taken;
   }
@@ -43,7 +43,7 @@ class Base64Source {
   std::string take(std::size_t count) {
     while (pending_.size() < count && read_group()) {
     }
-    const std::string taken = pending_.substr(0, count);
+    std::string taken = pending_.substr(0, count);
     pending_.erase(0, taken.size());
     return taken;
   }
@@ -91,25 +91,25 @@ class Base64Source {
 };
 
 template <class Number>
-Number number_at(const char* bytes, bool is_big_endian) {
+Number number_at(const char* bytes, std::endian order) {
   std::array<char, sizeof(Number)> copy{};
   std::memcpy(copy.data(), bytes, copy.size());
-  if (is_big_endian) std::reverse(copy.begin(), copy.end());
+  if (order == std::endian::big) std::reverse(copy.begin(), copy.end());
   return std::bit_cast<Number>(copy);
 }
 
 template <class Number>
-std::vector<double> numbers_in(std::string_view bytes, bool is_big_endian) {
+std::vector<double> numbers_in(std::string_view bytes, std::endian order) {
   std::vector<double> numbers(bytes.size() / sizeof(Number));
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    numbers[i] = static_cast<double>(number_at<Number>(bytes.data() + i * sizeof(Number), is_big_endian));
+    numbers[i] = static_cast<double>(number_at<Number>(bytes.data() + i * sizeof(Number), order));
   return numbers;
 }
 
 struct Type {
   std::string_view name;
   std::size_t bytes;
-  std::vector<double> (*read)(std::string_view bytes, bool is_big_endian);
+  std::vector<double> (*read)(std::string_view bytes, std::endian order);
 };
 
 template <class Number>
@@ -146,7 +146,7 @@ VtkArrays::VtkArrays(const XmlElements& xml, std::string_view type) : xml_(xml) 
     xml.fail(*root, "a VTKFile of the type " + std::string(type), root->attribute("type"));
   const std::string_view order = root->attribute("byte_order");
   if (order != "LittleEndian" && order != "BigEndian") xml.fail(*root, "byte_order LittleEndian or BigEndian", order);
-  is_big_endian_ = order == "BigEndian";
+  byte_order_ = order == "BigEndian" ? std::endian::big : std::endian::little;
   const std::string_view header = root->attribute("header_type");
   if (!header.empty() && header != "UInt32" && header != "UInt64")
     xml.fail(*root, "header_type UInt32 or UInt64", header);
@@ -167,7 +167,7 @@ std::vector<double> VtkArrays::read(const XmlElement& array) const {
   const std::string bytes = bytes_of(array);
   if (bytes.size() % type->bytes != 0)
     xml_.fail(array, "a multiple of " + std::to_string(type->bytes) + " bytes", std::to_string(bytes.size()));
-  return type->read(bytes, is_big_endian_);
+  return type->read(bytes, byte_order_);
 }
 
 std::string VtkArrays::bytes_of(const XmlElement& array) const {
@@ -193,8 +193,8 @@ std::vector<std::uint64_t> VtkArrays::sizes(const XmlElement& array, Source& sou
   std::vector<std::uint64_t> numbers;
   for (std::size_t at = 0; at < bytes.size(); at += size_bytes_) {
     const char* const p = bytes.data() + at;
-    numbers.push_back(size_bytes_ == sizeof(std::uint32_t) ? number_at<std::uint32_t>(p, is_big_endian_)
-                                                           : number_at<std::uint64_t>(p, is_big_endian_));
+    numbers.push_back(size_bytes_ == sizeof(std::uint32_t) ? number_at<std::uint32_t>(p, byte_order_)
+                                                           : number_at<std::uint64_t>(p, byte_order_));
   }
   return numbers;
 }
@@ -208,8 +208,8 @@ std::string VtkArrays::plain_bytes(const XmlElement& array, Source source) const
   return bytes;
 }
 
-/// In front of the blocks stand their number, their size before compression, that of the last one if it is smaller (else
-/// 0), and their sizes after compression.
+/// In front of the blocks stand their number, their size before compression, that of the last one if it is smaller
+/// (else 0), and their sizes after compression.
 template <class Source>
 std::string VtkArrays::expanded_bytes(const XmlElement& array, Source source) const {
   constexpr std::uint64_t kMostExpansion = 1040;  // zlib's own limit is 1032

@@ -4,6 +4,7 @@
 // https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,7 +19,8 @@ class VtkArrays {
  public:
   /// `xml` must outlive this.
   ///
-  /// @throws InputError if its root is no VTKFile of that type, or has a compressor or an order of bytes that is not read
+  /// @throws InputError if its root is no VTKFile of that type, or has a compressor or an order of bytes that is not
+  /// read
   VtkArrays(const XmlElements& xml, std::string_view type);
 
   /// The numbers of a DataArray; whole numbers beyond 2^53 are rounded.
@@ -36,7 +38,7 @@ class VtkArrays {
   std::vector<std::uint64_t> sizes(const XmlElement& array, Source& source, std::uint64_t count) const;
 
   const XmlElements& xml_;
-  bool is_big_endian_ = false;
+  std::endian byte_order_ = std::endian::little;
   bool is_compressed_ = false;
   std::size_t size_bytes_ = sizeof(std::uint32_t);  // of each number in front of an array
   const XmlElement* appended_ = nullptr;            // none if nothing is appended

@@ -25,8 +25,8 @@ struct XmlElement {
   }
 };
 
-/// All elements in the order of their starts. Behind the start of one named `last` nothing is read as XML: its text is all
-/// the rest.
+/// All elements in the order of their starts. Behind the start of one named `last` nothing is read as XML: its text is
+/// all the rest.
 class XmlElements {
  public:
   /// `bytes` and `file` must outlive this. @throws InputError if the text is no such XML, and names the line

@@ -120,7 +120,8 @@ bool ends_in(std::string_view name, std::string_view ending) {
 }
 
 std::string expand(std::string data, std::string_view name) {
-  return data.starts_with(kGzipMagic) ? GzipReader(data, name).expand() : data;
+  if (data.starts_with(kGzipMagic)) return GzipReader(data, name).expand();
+  return data;
 }
 
 }  // namespace

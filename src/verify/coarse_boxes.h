@@ -52,7 +52,7 @@ class CoarseBoxes {
   static std::uint64_t bits_of(const std::uint8_t* bytes) {
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < kAtOnce; i += 8) {
-      std::uint64_t word;
+      std::uint64_t word = 0;
       std::memcpy(&word, bytes + i, sizeof word);
       if (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
       bits |= (word * 0x0102040810204080u >> 56) << i;

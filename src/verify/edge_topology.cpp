@@ -81,8 +81,8 @@ class SpokeList {
 bool is_closed_fan(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std::uint32_t vertex) {
   constexpr std::size_t kMost = 32;  // triangles; a larger star takes the other way
   if (star.empty() || star.size() > kMost) return false;
-  std::array<std::uint32_t, kMost> from;
-  std::array<std::uint32_t, kMost> to;
+  std::array<std::uint32_t, kMost> from{};
+  std::array<std::uint32_t, kMost> to{};
   for (std::size_t i = 0; i < star.size(); ++i) {
     const auto [next, last] = others(mesh.triangles[star[i]], vertex);
     from[i] = next;

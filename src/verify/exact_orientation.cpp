@@ -36,12 +36,6 @@ int orient2d(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
 
 int orient3d(const Point& a, const Point& b, const Point& c, const Point& d) { return OrientedPlane(a, b, c).side(d); }
 
-bool are_collinear(const Point& a, const Point& b, const Point& c) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (orient2d(project_along(axis, a), project_along(axis, b), project_along(axis, c)) != 0) return false;
-  return true;
-}
-
 Expansion<192> exact_determinant(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Differences u = exact_differences(b, a);
   const Differences v = exact_differences(c, a);

@@ -34,9 +34,6 @@ int orient2d(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 /// Sign of (b - a) x (c - a) . (d - a): +1 if d is where a, b, c look counter-clockwise from, 0 if coplanar. Exact.
 int orient3d(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// Whether a, b, c lie on one line, exactly: a triangle of zero area.
-bool are_collinear(const Point& a, const Point& b, const Point& c);
-
 /// The exact value of (b - a) x (c - a) . (d - a): six times the volume of the tetrahedron.
 Expansion<192> exact_determinant(const Point& a, const Point& b, const Point& c, const Point& d);
 

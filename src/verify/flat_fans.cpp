@@ -8,6 +8,8 @@
 namespace gaussmesh::verify {
 namespace {
 
+enum class Turn { kCounterClockwise, kClockwise };
+
 Turns turns_of(const Point& a, const Point& b, const Point& c) {
   Turns turns = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -27,14 +29,14 @@ bool is_in_upper_half(int axis, const Point& centre, const Point& point) {
 /// Whether triangles round a vertex that are a closed fan, and all turn the same way by more than 0 and less than
 /// pi, go round once: whether only one of them runs over the direction 0.
 bool goes_round_once(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std::uint32_t vertex, int axis,
-                     bool clockwise) {
+                     Turn turn) {
   const Point& centre = mesh.vertices[vertex];
   int rounds = 0;
   for (const std::uint32_t t : star) {
     const auto [next, last] = others(mesh.triangles[t], vertex);
     const bool next_is_upper = is_in_upper_half(axis, centre, mesh.vertices[next]);
     const bool last_is_upper = is_in_upper_half(axis, centre, mesh.vertices[last]);
-    rounds += next_is_upper != last_is_upper && next_is_upper == clockwise;
+    rounds += next_is_upper != last_is_upper && next_is_upper == (turn == Turn::kClockwise);
   }
   return rounds == 1;
 }
@@ -43,8 +45,10 @@ bool is_flat(const TriangleMesh& mesh, std::span<const std::uint32_t> star, std:
              const std::vector<Turns>& turns) {
   unsigned common = 0x3F;
   for (const std::uint32_t t : star) common &= turns[t];
-  for (int bit = 0; bit < 6; ++bit)
-    if ((common >> bit & 1) != 0 && goes_round_once(mesh, star, vertex, bit % 3, bit >= 3)) return true;
+  for (int bit = 0; bit < 6; ++bit) {
+    const Turn turn = bit < 3 ? Turn::kCounterClockwise : Turn::kClockwise;
+    if ((common >> bit & 1) != 0 && goes_round_once(mesh, star, vertex, bit % 3, turn)) return true;
+  }
   return false;
 }
 

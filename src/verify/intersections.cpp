@@ -82,7 +82,7 @@ class PatchTester {
   }
 
   FlatFans flat_fans_of(const Listed& triangle) const {
-    FlatFans fans;
+    FlatFans fans{};
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t vertex = triangle.numbers[k];
       fans.numbers[k] = Numbers{} + (facts_.is_flat[vertex] != 0 ? vertex : kNone);

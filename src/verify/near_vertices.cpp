@@ -40,10 +40,11 @@ class CubeTable {
   template <class Visit>
   void for_each_around(std::uint32_t i, const Visit& visit) const {
     const Point place = place_of(points_[i]);
-    std::array<std::size_t, 27> seen;  // slots: different cubes may share one
+    std::array<std::size_t, 27> seen{};  // slots: different cubes may share one
     std::size_t count = 0;
     for (int cube = 0; cube < 27; ++cube) {
-      const std::size_t slot = slot_of({place[0] + cube % 3 - 1, place[1] + cube / 3 % 3 - 1, place[2] + cube / 9 - 1});
+      const int dx = cube % 3 - 1, dy = cube / 3 % 3 - 1, dz = cube / 9 - 1;
+      const std::size_t slot = slot_of({place[0] + dx, place[1] + dy, place[2] + dz});
       if (std::find(seen.begin(), seen.begin() + count, slot) != seen.begin() + count) continue;
       seen[count++] = slot;
       for (std::uint32_t j = heads_[slot]; j != kNone; j = next_[j])

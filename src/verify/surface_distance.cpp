@@ -50,7 +50,7 @@ DistanceSums sum_over_feet(const AtomTree& tree, const Level& level, std::size_t
   std::vector<DistanceSums> parts(chunk_count(count, kPointsInRun));
   parallel_for_chunks(count, kPointsInRun, [&](std::size_t run, std::size_t begin, std::size_t end) {
     const std::size_t size = end - begin;
-    std::array<Point, kPointsInRun> starts;
+    std::array<Point, kPointsInRun> starts{};
     std::array<Foot, kPointsInRun> feet;
     for (std::size_t i = 0; i < size; ++i) starts[i] = point_of(order[begin + i]);
     FootFinder(tree, level.decay, level.isovalue, level.reach, kPrecision)

@@ -47,10 +47,10 @@ void TriangleTree::find_meeting_blocks(const BlockBoxes& boxes, const BoundingBo
   compare_boxes(boxes.low[0].data(), low, high, answers.data());
 }
 
-void TriangleTree::find_distances_to_blocks(const BlockBoxes& boxes, const Point& point,
-                                            std::array<double, kPatchBlocks>& distances_sq) {
+std::array<double, TriangleTree::kPatchBlocks> TriangleTree::distances_sq_to_blocks(const BlockBoxes& boxes,
+                                                                                    const Point& point) {
   constexpr double kRounded = 0x1p-23;  // of a coordinate; half of that and what comes out of it by rounding here
-  distances_sq.fill(0.0);
+  std::array<double, kPatchBlocks> distances_sq{};
   for (int k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < kPatchBlocks; ++i) {
       const double low = boxes.low[k][i], high = boxes.high[k][i];
@@ -59,6 +59,7 @@ void TriangleTree::find_distances_to_blocks(const BlockBoxes& boxes, const Point
       const double gap = std::max(0.0, std::max(below, above));
       distances_sq[i] += gap * gap;
     }
+  return distances_sq;
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {

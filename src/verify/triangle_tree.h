@@ -124,8 +124,7 @@ class TriangleTree {
 
   template <class Visit>
   void approach_blocks(std::size_t patch, const Point& point, const double& bound_sq, const Visit& visit) const {
-    std::array<double, kPatchBlocks> distances_sq;
-    find_distances_to_blocks(block_boxes_[patch], point, distances_sq);
+    const std::array<double, kPatchBlocks> distances_sq = distances_sq_to_blocks(block_boxes_[patch], point);
     const std::size_t begin = patch * kPatchBlocks;
     const std::size_t count = std::min(kPatchBlocks, block_count() - begin);
     for (std::size_t i = 0; i < count; ++i)
@@ -133,8 +132,7 @@ class TriangleTree {
   }
 
   /// Squares of distances from the boxes, or a little less: what rounding took from the boxes is taken off.
-  static void find_distances_to_blocks(const BlockBoxes& boxes, const Point& point,
-                                       std::array<double, kPatchBlocks>& distances_sq);
+  static std::array<double, kPatchBlocks> distances_sq_to_blocks(const BlockBoxes& boxes, const Point& point);
 
   std::vector<std::uint32_t> order_;              // triangle numbers along the curve
   std::vector<BlockBoxes> block_boxes_;           // of each patch

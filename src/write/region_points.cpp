@@ -41,13 +41,13 @@ std::vector<std::vector<std::uint32_t>> find_large_triangles(const TriangleMesh&
   return of;
 }
 
-/// The point `depth` times the triangle's size from its centroid, to the side that is inside the component.
-Point point_under(const TriangleMesh& mesh, std::uint32_t t, bool is_cavity, double depth) {
+/// The point at that height over the centroid of a triangle, along its normal and in terms of its size.
+Point point_over(const TriangleMesh& mesh, std::uint32_t t, double height) {
   const auto& [a, b, c] = mesh.triangles[t];
   const Point normal =
       cross(difference(mesh.vertices[b], mesh.vertices[a]), difference(mesh.vertices[c], mesh.vertices[a]));
   const double size = length(normal);
-  const double step = (is_cavity ? depth : -depth) * std::sqrt(size);
+  const double step = height * std::sqrt(size);
   Point point{};
   for (int k = 0; k < 3; ++k) {
     const double centroid = (mesh.vertices[a][k] + mesh.vertices[b][k] + mesh.vertices[c][k]) / 3.0;
@@ -73,7 +73,7 @@ std::vector<RegionPoint> find_region_points(const TriangleMesh& mesh, const Mesh
     const bool is_cavity = check.components[component].is_cavity();
     for (const std::uint32_t t : large[component]) {
       for (const double depth : kDepths) {
-        const Point point = point_under(mesh, t, is_cavity, depth);
+        const Point point = point_over(mesh, t, is_cavity ? depth : -depth);
         if (is_in_region(point, component)) return point;
       }
     }

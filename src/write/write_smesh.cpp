@@ -10,17 +10,19 @@
 namespace gaussmesh {
 namespace {
 
-/// Numbered lines `i x y z` and, for regions, the attribute.
-std::string point_lines(const std::vector<RegionPoint>& points, const MeshCheck& check, bool cavities) {
+enum class Section { kHoles, kRegions };
+
+/// Numbered lines `i x y z` of cavities or solids and, for regions, the attribute.
+std::string point_lines(const std::vector<RegionPoint>& points, const MeshCheck& check, Section section) {
   std::string lines;
   std::size_t count = 0;
   for (const RegionPoint& region : points) {
     const bool is_cavity = check.components[region.component].is_cavity();
-    if (is_cavity != cavities) continue;
+    if (is_cavity != (section == Section::kHoles)) continue;
     char text[kLongestPoint];
     char* const end = put_point(text, region.point, ' ');
     lines += std::to_string(count++) + " " + std::string(text, end);
-    if (!cavities) lines += std::to_string(region.component + 1) + " ";
+    if (section == Section::kRegions) lines += std::to_string(region.component + 1) + " ";
     lines.back() = '\n';
   }
   return std::to_string(count) + "\n" + lines;
@@ -50,8 +52,8 @@ void write_smesh(const MeshView& view, WholeFile& file) {
     *p++ = '\n';
     return p;
   });
-  file.write(point_lines(points, check, true));
-  file.write(point_lines(points, check, false));
+  file.write(point_lines(points, check, Section::kHoles));
+  file.write(point_lines(points, check, Section::kRegions));
 }
 
 }  // namespace gaussmesh

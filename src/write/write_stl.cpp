@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "gaussmesh/error.h"
+#include "verify/vector3.h"
 #include "write/mesh_writer.h"
 
 namespace gaussmesh {
@@ -26,11 +27,7 @@ FloatPoint to_float(const Point& p) {
 
 /// Of the triangle a b c; zero if it has no area.
 FloatPoint unit_normal(const Point& a, const Point& b, const Point& c) {
-  Point normal{};
-  for (int k = 0; k < 3; ++k) {
-    const int m = (k + 1) % 3, n = (k + 2) % 3;
-    normal[k] = (b[m] - a[m]) * (c[n] - a[n]) - (b[n] - a[n]) * (c[m] - a[m]);
-  }
+  Point normal = verify::cross(verify::difference(b, a), verify::difference(c, a));
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   if (length > 0.0) {
     for (double& x : normal) x /= length;

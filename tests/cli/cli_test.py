@@ -262,6 +262,31 @@ class WrongUse(CliTest):
     def test_check_of_nothing(self):
         self.refused("check")
 
+    def test_a_mistyped_command_is_guessed(self):
+        for words, command in [(["chek"], "check"), (["chek", self.mesh], "check"), (["CHECK", self.mesh], "check"),
+                               (["mesure", self.mesh, self.molecule("methanol"), "--atom-areas", "a"], "measure"),
+                               (["conv", self.mesh, "a.ply"], "convert"),
+                               (["compair", "a.off", "-o", self.mesh], "compare")]:
+            self.refused(*words, names=f"^gaussmesh: expected a file of atoms or a command, got '{words[0]}'; "
+                                       f"did you mean '{command}'\\?\n")
+        self.refused("chain", self.mesh, names="^gaussmesh: expected one molecule, got 'chain' and '.*out.off'\n")
+        self.expect(BAD_INPUT, "chain", "-o", self.mesh)
+        self.write("chek", self.molecule("methanol").read_bytes())
+        self.refused("chek", "second", names="^gaussmesh: expected one molecule, got 'chek' and 'second'\n")
+        self.expect(0, "chek", "-o", self.mesh)
+
+    def test_no_header_is_for_msms(self):
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        for command in [[self.molecule("methanol"), "-o", "new.off", "-o", "new.ply"],
+                        [self.molecule("methanol"), "-o", "new.off", "--cavities", "separate"],
+                        ["convert", self.mesh, "new.off"]]:
+            error = self.expect(WRONG_USE, *command, "--no-header").stderr
+            self.assertEqual(error, "gaussmesh: --no-header: expected a mesh to write in the format msms, got off for "
+                                    "'new.off'\n")
+        self.assertEqual(self.files(), ["out.off"])
+        self.expect(0, "convert", self.mesh, "new.off", "new.vert", "--no-header")
+        self.assertNotIn("#", (self.folder / "new.vert").read_text())
+
 
 class NothingToMesh(CliTest):
     def test_level_above_phi_everywhere(self):
@@ -868,10 +893,33 @@ class Measure(CliTest):
         areas = self.folder / "areas.txt"
         text = self.expect(0, "measure", self.mesh, self.atom, "--atom-areas", areas).stdout
         self.assertIn("Atoms with a share of the area: 1 of 1", text)
-        number, area = areas.read_text().split()
-        self.assertEqual(number, "1")
+        number, area, *names = areas.read_text().split()
+        self.assertEqual((number, names), ("1", ["C", "X", ".", "1"]))
         self.assertAlmostEqual(float(area), 4 * math.pi * self.radius**2, delta=0.3)
         self.expect(WRONG_USE, "measure", self.mesh, "--atom-areas", areas)
+
+    def test_areas_have_the_names_of_their_atoms(self):
+        records = ["ATOM      1  CA  GLY B  12A     -1.000   2.000   3.000  1.00 10.00           C",
+                   "HETATM    2 FE   HEM C  13       1.000   2.000   3.000  1.00 10.00          FE"]
+        columns = ["group_PDB", "type_symbol", "label_atom_id", "label_comp_id", "label_asym_id", "auth_asym_id",
+                   "auth_seq_id", "pdbx_PDB_ins_code", "Cartn_x", "Cartn_y", "Cartn_z"]
+        rows = ["ATOM C CA GLY A B 12 A -1.0 2.0 3.0", "HETATM FE FE HEM D C 13 ? 1.0 2.0 3.0"]
+        self.write("m.pdb", "\n".join(records))
+        self.write("m.cif", "\n".join(["data_M", "loop_", *("_atom_site." + c for c in columns), *rows, ""]))
+        self.write("m.pqr", "ATOM 1 CA GLY B 12A -1.0 2.0 3.0 0 1.7\nHETATM 2 FE HEM C 13 1.0 2.0 3.0 0 1.7\n")
+        self.write("m.xyzr", "-1.0 2.0 3.0 1.7\n1.0 2.0 3.0 1.7\n")
+        self.write("my.radii", "C 1.7\nFE 1.7\n")
+        self.expect(0, "m.pqr", "-o", self.mesh)
+        tables = {}
+        for molecule in ["m.pdb", "m.cif", "m.pqr", "m.xyzr"]:
+            radii = ["--radii-file", "my.radii"] if molecule in ("m.pdb", "m.cif") else []
+            said = self.expect(0, "measure", self.mesh, molecule, *radii, "--atom-areas", "-").stdout
+            tables[molecule] = [line.split() for line in said.splitlines()]
+            self.assertEqual([row[:2] for row in tables[molecule]], [row[:2] for row in tables["m.pdb"]], molecule)
+        wanted = [["CA", "GLY", "B", "12A"], ["FE", "HEM", "C", "13"]]
+        for molecule in ["m.pdb", "m.cif", "m.pqr"]:
+            self.assertEqual([row[2:] for row in tables[molecule]], wanted, molecule)
+        self.assertEqual([row[2:] for row in tables["m.xyzr"]], [["."] * 4] * 2)
 
     def test_files_appear_together(self):
         error = self.expect(WRONG_USE, "measure", self.mesh, self.atom, "--atom-areas", "x", "--json", "./x").stderr
@@ -879,7 +927,7 @@ class Measure(CliTest):
         self.expect(BAD_INPUT, "measure", self.mesh, self.atom, "--atom-areas", "x", "--json", "no/such/x")
         self.assertEqual(self.files(), ["atom.pqr", "out.off"])
         piped = self.expect(0, "measure", self.mesh, self.atom, "--atom-areas", "-", "--json", "x")
-        self.assertRegex(piped.stdout, r"^1 [\d.]+\n$", "nothing else on standard output")
+        self.assertRegex(piped.stdout, r"^1 [\d.]+ C X \. 1\n$", "nothing else on standard output")
         self.assertIn("Atoms with a share", piped.stderr)
 
     def test_without_a_molecule(self):

@@ -24,6 +24,7 @@ void check(AtomFile (*parse)(std::string_view, std::string_view), std::string_vi
   try {
     const AtomFile file = parse(text, "fuzz");
     require(!file.atoms.empty());
+    require(file.names.empty() || file.names.size() == file.atoms.size());
     for (const Atom& atom : file.atoms) {
       require(is_coordinate(atom.x) && is_coordinate(atom.y) && is_coordinate(atom.z));
       require(atom.radius >= 0.0 && atom.radius <= gaussmesh::kLargestRadius && std::isfinite(atom.charge));
@@ -39,9 +40,12 @@ void check(AtomFile (*parse)(std::string_view, std::string_view), std::string_vi
 // NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  check(gaussmesh::parse_pqr, text);
+  constexpr auto kKeep = gaussmesh::AtomNames::kKeep;
+  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_pqr(t, name, kKeep); }, text);
   check(gaussmesh::parse_xyzr, text);
-  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_pdb(t, name, "bondi"); }, text);
-  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_mmcif(t, name, "bondi"); }, text);
+  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_pdb(t, name, "bondi", {}, kKeep); },
+        text);
+  check([](std::string_view t, std::string_view name) { return gaussmesh::parse_mmcif(t, name, "bondi", {}, kKeep); },
+        text);
   return 0;
 }

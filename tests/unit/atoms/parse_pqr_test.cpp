@@ -215,10 +215,67 @@ TEST_CASE("parse_pqr ends the first model at ENDMDL or at the next MODEL") {
 
 TEST_CASE("parse_pqr counts one as one") {
   const std::string atom = "ATOM 1 N ASN 1" + kNumbers + "\n";
-  CHECK(parse_pqr(atom + "END\n" + atom, "f.pqr").warnings.at(0) ==
+  CHECK(parse_pqr(atom + "END\nATOM 1 O HOH 2" + kNumbers + "\n", "f.pqr").warnings.at(0) ==
         "f.pqr:2: END is followed by 1 atom that is read too");
   CHECK(parse_pqr(atom + "TOM\n", "f.pqr").warnings.at(0) ==
         "f.pqr:2: skipped 1 line of no known record, the first 'TOM'");
+}
+
+TEST_CASE("parse_pqr refuses frames and copies behind END") {
+  const auto atoms = [](const std::string& first, const std::string& numbers) {
+    return "ATOM 1 N " + first + numbers + "\nATOM 2 CA ASN 1" + numbers + "\n";
+  };
+  const std::string elsewhere = " 9.25 -2.5 3.75 -0.5 1.5";
+  const std::string frame = atoms("ASN 1", kNumbers);
+  CHECK(error_of(frame + "END\n" + frame) ==
+        "f.pqr:4: expected other atoms behind END in line 3 than those before it, got 'ATOM 1 N ASN 1 1.25 -2.5 3.75 "
+        "-0.5 1.5' and so on, as before; keep one of the frames or copies, or if all are to be one molecule, take END "
+        "out");
+  const std::string moved = atoms("ASN 1", elsewhere);
+  CHECK_THAT(error_of(frame + "END\n" + moved + "END\n" + moved + "END\n"), ContainsSubstring("f.pqr:4: "));
+  // Chains of a complex that begin alike, and what is joined with it, are one molecule.
+  const std::string others = GENERATE_COPY(atoms("GLY 1", elsewhere), "ATOM 1 N ASN 1" + elsewhere + "\n",
+                                           moved + "ATOM 3 C ASN 1" + elsewhere + "\n");
+  CAPTURE(others);
+  const AtomFile file = parse_pqr(frame + "END\n" + others + "END\n", "f.pqr");
+  CHECK(file.atoms.size() > 2);
+  REQUIRE(file.warnings.size() == 1);
+  CHECK_THAT(file.warnings[0], ContainsSubstring("f.pqr:3: END is followed by "));
+  CHECK(parse_pqr(frame + moved + "END\n", "f.pqr").atoms.size() == 4);
+}
+
+TEST_CASE("parse_pqr keeps names where they are asked for") {
+  struct Case {
+    const char* leading;
+    AtomName name;
+  };
+  const Case good = GENERATE(values<Case>({
+      {"ATOM 1 N ASN 12", {"N", "ASN", "", "12"}},
+      {"HETATM99941 N ASN A -5", {"N", "ASN", "A", "-5"}},
+      {"ATOM ***** N ASN A1001B", {"N", "ASN", "A", "1001B"}},
+      {"ATOM 1 N ASN A-5", {"N", "ASN", "A", "-5"}},
+      {"ATOM 1 N ASN A 12 B", {"N", "ASN", "A", "12B"}},
+      {"ATOM 1 N ASN 12 B", {"N", "ASN", "", "12B"}},
+      {"ATOM 1 P A 1 12", {"P", "A", "1", "12"}},
+      {"ATOM 1 N A ASN B 12", {"N", "ASN", "B", "12"}},
+      {"ATOM 1 N A ASN 12", {"N", "ASN", "", "12"}},
+      {"ATOM 1 HD11LEU 2", {"HD11", "LEU", "", "2"}},
+      {"ATOM 1 HD11LEU A1002", {"HD11", "LEU", "A", "1002"}},
+      {"ATOM 1 HD11ALEU A 2", {"HD11", "ALEU", "A", "2"}},
+      {"ATOM 1 HO5'1 A 2", {"HO5'1", "A", "", "2"}},
+      {"ATOM      1  N   ASN A  12    -158.901-245.8731049.445  0.1801 1.8240", {"N", "ASN", "A", "12"}},
+      {"ATOM      1  N                -158.901-245.8731049.445  0.1801 1.8240", {}},
+  }));
+  CAPTURE(good.leading);
+  const std::string record = good.leading;
+  const std::string text = record.ends_with("1.8240") ? record : record + kNumbers;
+  const AtomFile file = parse_pqr(text, "f.pqr", AtomNames::kKeep);
+  REQUIRE(file.names.size() == 1);
+  CHECK(file.names[0].name == good.name.name);
+  CHECK(file.names[0].residue == good.name.residue);
+  CHECK(file.names[0].chain == good.name.chain);
+  CHECK(file.names[0].number == good.name.number);
+  CHECK(parse_pqr(text, "f.pqr").names.empty());
 }
 
 TEST_CASE("parse_pqr warns of lines that it skips") {

@@ -6,11 +6,8 @@
 #include <numeric>
 #include <random>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "catch2.h"
+#include "support/threads.h"
 #include "verify/shapes.h"
 
 using namespace gaussmesh;
@@ -302,15 +299,10 @@ TEST_CASE("a vertex with many triangles round it") {
   CHECK(check_mesh(mesh).fit_for_solver());
 }
 
-#ifdef _OPENMP
 TEST_CASE("the check is the same to the last bit for any number of threads") {
   const TriangleMesh mesh = together(torus(200, 100, 5, 1), moved(icosphere(4, 1), {5, 0, 0}));
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const MeshCheck alone = check_mesh(mesh);
-  omp_set_num_threads(3);
-  const MeshCheck shared = check_mesh(mesh);
-  omp_set_num_threads(threads);
+  const auto alone = testing::on_threads(1, [&] { return check_mesh(mesh); });
+  const auto shared = testing::on_threads(3, [&] { return check_mesh(mesh); });
   CHECK(alone.intersecting_pairs == shared.intersecting_pairs);
   CHECK(alone.intersecting_examples == shared.intersecting_examples);
   CHECK(alone.area == shared.area);
@@ -319,4 +311,3 @@ TEST_CASE("the check is the same to the last bit for any number of threads") {
   CHECK(alone.mean_edge == shared.mean_edge);
   CHECK(alone.ratio_histogram == shared.ratio_histogram);
 }
-#endif

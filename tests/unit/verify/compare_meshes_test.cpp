@@ -3,12 +3,9 @@
 #include <cmath>
 #include <random>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "catch2.h"
 #include "gaussmesh/error.h"
+#include "support/threads.h"
 #include "verify/nearest_triangle.h"
 #include "verify/shapes.h"
 
@@ -138,18 +135,12 @@ TEST_CASE("what cannot be compared is refused") {
   CHECK_THROWS_AS(compare_meshes(bad, cube(1)), InputError);
 }
 
-#ifdef _OPENMP
 TEST_CASE("comparisons are the same to the last bit for any number of threads") {
   const TriangleMesh a = icosphere(4, 3), b = moved(icosphere(3, 3.1), {0.1, 0.2, 0});
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const MeshComparison alone = compare_meshes(a, b);
-  omp_set_num_threads(3);
-  const MeshComparison shared = compare_meshes(a, b);
-  omp_set_num_threads(threads);
+  const auto alone = testing::on_threads(1, [&] { return compare_meshes(a, b); });
+  const auto shared = testing::on_threads(3, [&] { return compare_meshes(a, b); });
   CHECK(alone.first_to_second.mean == shared.first_to_second.mean);
   CHECK(alone.first_to_second.rms == shared.first_to_second.rms);
   CHECK(alone.first_to_second.farthest == shared.first_to_second.farthest);
   CHECK(alone.second_to_first.max_bound == shared.second_to_first.max_bound);
 }
-#endif

@@ -148,13 +148,6 @@ TEST_CASE("signs are exact up to the ends of the range of coordinates") {
   CHECK_FALSE(is_exact_coordinate(NAN));
 }
 
-TEST_CASE("are_collinear is exact") {
-  CHECK(are_collinear({0, 0, 0}, {1, 2, 3}, {3, 6, 9}));
-  CHECK(are_collinear({1, 1, 1}, {1, 1, 1}, {2, 5, 7}));
-  CHECK_FALSE(are_collinear({0.1, 1, 0}, {0.2, 2, 0}, {0.3, 3, 0}));  // 0.3 is not three times 0.1
-  CHECK_FALSE(are_collinear({0, 0, 0}, {1e7, 0, 0}, {2e7, 0, 0x1p-190}));
-}
-
 TEST_CASE("ExactSum loses nothing") {
   Source source;
   CAPTURE(source.seed());

@@ -5,11 +5,8 @@
 #include <random>
 #include <set>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "catch2.h"
+#include "support/threads.h"
 #include "verify/shapes.h"
 #include "verify/triangle_pair.h"
 
@@ -114,9 +111,14 @@ Intersections find(const TriangleMesh& mesh) {
   return find_intersections(mesh, TriangleTree(mesh), find_flat_fans(mesh, stars, find_edge_topology(mesh, stars)));
 }
 
+/// Whether a triangle has no area: whichever way one looks at it, it turns neither way.
 bool has_flat_triangle(const TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-    return are_collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    const auto turn_along = [&](int axis) {
+      const auto corner = [&](int k) { return project_along(axis, mesh.vertices[t[k]]); };
+      return orient2d(corner(0), corner(1), corner(2));
+    };
+    return turn_along(0) == 0 && turn_along(1) == 0 && turn_along(2) == 0;
   });
 }
 
@@ -237,17 +239,11 @@ TEST_CASE("good meshes of any size have no intersections") {
   CHECK(find(TriangleMesh{}).pairs == 0);
 }
 
-#ifdef _OPENMP
 TEST_CASE("intersections do not depend on the number of threads") {
   std::mt19937 engine(7);
   const TriangleMesh mesh = strewn(engine, 5000, 10, 0.7);
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const Intersections alone = find(mesh);
-  omp_set_num_threads(5);
-  const Intersections together = find(mesh);
-  omp_set_num_threads(threads);
+  const auto alone = testing::on_threads(1, [&] { return find(mesh); });
+  const auto together = testing::on_threads(5, [&] { return find(mesh); });
   CHECK(alone.pairs == together.pairs);
   CHECK(alone.examples == together.examples);
 }
-#endif

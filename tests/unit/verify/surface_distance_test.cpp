@@ -3,13 +3,10 @@
 #include <numbers>
 #include <random>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "catch2.h"
 #include "gaussmesh/check_mesh.h"
 #include "gaussmesh/error.h"
+#include "support/threads.h"
 #include "verify/shapes.h"
 
 using namespace gaussmesh;
@@ -157,20 +154,14 @@ TEST_CASE("an empty mesh has no distance, and bad options are refused") {
   CHECK_THROWS_AS(distance_to_surface({}, {}, 0.6, 1.0), OptionError);
 }
 
-#ifdef _OPENMP
 TEST_CASE("distances are the same to the last bit for any number of threads") {
   std::mt19937 engine(3);
   const std::vector<Atom> atoms = heap(engine, 200, 6);
   const TriangleMesh mesh = icosphere(4, 7);
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const SurfaceDistance alone = distance_to_surface(mesh, atoms, 0.6, 1.0);
-  omp_set_num_threads(3);
-  const SurfaceDistance shared = distance_to_surface(mesh, atoms, 0.6, 1.0);
-  omp_set_num_threads(threads);
+  const auto alone = testing::on_threads(1, [&] { return distance_to_surface(mesh, atoms, 0.6, 1.0); });
+  const auto shared = testing::on_threads(3, [&] { return distance_to_surface(mesh, atoms, 0.6, 1.0); });
   CHECK(alone.max_vertex_distance == shared.max_vertex_distance);
   CHECK(alone.mean_vertex_distance == shared.mean_vertex_distance);
   CHECK(alone.mean_centroid_distance == shared.mean_centroid_distance);
   CHECK(alone.faces_against_gradient == shared.faces_against_gradient);
 }
-#endif
