@@ -25,7 +25,7 @@ SizeSamples sample_sizes(const GaussianField& field, const SizeTargets& targets)
 /// improvement has to make most of the triangles. Nothing but cost hangs on it.
 double suitable_cell_size(const SizeSamples& samples, double spacing);
 
-/// A number of triangles that will hardly be fewer: by the sizes that some part of the surface does not exceed.
+/// A number of triangles that will not be much fewer: by the sizes that some part of the surface does not exceed.
 /// Where sizes differ much there are many more.
 double least_triangle_count(const SizeSamples& samples);
 

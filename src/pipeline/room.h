@@ -6,7 +6,7 @@
 
 namespace gaussmesh {
 
-/// @param triangles  a number that will hardly be fewer
+/// @param triangles  a number that will not be much fewer
 /// @throws CannotMeshError if arrays or MeshOptions::memory_bytes do not hold so many
 void require_room(double triangles, const MeshOptions& options);
 

@@ -76,13 +76,13 @@ TEST_CASE("the area of a sphere is known, that of many atoms about") {
   CHECK(area_of(ring) < 1.1 * exact);
 }
 
-TEST_CASE("what is said to be the least number of triangles is no more than there are") {
+TEST_CASE("what is said to be the least number of triangles is not much more than there are") {
   const std::vector<Atom> ring = atom_ring(12, 5.0, 1.5);
   for (const double spacing : {0.3, 1.0, 3.0}) {
     CAPTURE(spacing);
     const SizeSamples samples = sample_sizes(GaussianField(ring, kDecay, 1.0), {.spacing = spacing});
     const std::size_t triangles = mesh_surface(ring, options_for(spacing)).mesh.triangles.size();
-    CHECK(least_triangle_count(samples) < 1.1 * static_cast<double>(triangles));
+    CHECK(least_triangle_count(samples) < 1.3 * static_cast<double>(triangles));
     CHECK(least_triangle_count(samples) > 0.3 * static_cast<double>(triangles));
   }
 }
