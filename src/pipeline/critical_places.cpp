@@ -34,13 +34,19 @@ std::string coarse_message(const std::vector<UncertifiedPlace>& places) {
   return message + ". No proof of topology is possible there; choose a smaller spacing.";
 }
 
-std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue) {
+std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue, double smallest_part) {
+  constexpr double kLargePart = 1e-5;  // A; boxes that are no larger mostly do, where any do
   const CriticalPlace& first = places.front();
   std::string message = "c = " + number_text(isovalue, 15) + " is too near a critical value of phi: at " +
                         place_text(first.point) + " the surface is singular at c = " + number_text(first.value, 15) +
                         ", " + number_text(std::abs(isovalue - first.value), 3) + " away";
   if (places.size() > 1) message += ", and at " + std::to_string(places.size() - 1) + " more places";
-  return message + ". No proof of topology is possible there; choose another c, or --allow-uncertified.";
+  message += ". No proof of topology is possible there";
+  if (smallest_part > kLargePart) {
+    message += " with cells whose smallest parts are of " + number_text(smallest_part, 2) + " A";
+  }
+  return message + "; choose another c, " + (smallest_part > kLargePart ? "a smaller spacing, " : "") +
+         "or --allow-uncertified.";
 }
 
 }  // namespace gaussmesh

@@ -15,7 +15,7 @@ std::vector<CriticalPlace> critical_places(const GaussianField& field, const std
                                            double isovalue);
 
 /// Says so, for the user; there is at least one place.
-std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue);
+std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue, double smallest_part);
 
 /// The same where there is no critical point.
 std::string coarse_message(const std::vector<UncertifiedPlace>& places);

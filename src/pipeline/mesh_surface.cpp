@@ -189,7 +189,9 @@ class SurfaceMesher {
     if (!report.certified) {
       report.critical = critical_places(field_, trace.uncertified, options_.isovalue);
       if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
-      if (!options_.allow_uncertified) throw CannotMeshError(critical_message(report.critical, options_.isovalue));
+      if (!options_.allow_uncertified) {
+        throw CannotMeshError(critical_message(report.critical, options_.isovalue, trace.uncertified.front().size));
+      }
       TracedBeside beside = trace_beside(atoms_, options_, threads_, watch_);
       trace = std::move(beside.trace);
       report.isovalue_used = beside.isovalue;
@@ -203,32 +205,45 @@ class SurfaceMesher {
     return std::move(trace.surface);
   }
 
-  /// What is demanded beyond the spacing is left out where that cannot be traced: the lattice of smaller cells may be
-  /// degenerate where that of the others is not. @throws CannotMeshError
+  /// By the first of the demands that leads to a certified surface. @throws CannotMeshError
   TraceResult trace_at_level() {
-    for (;;) {
+    std::optional<TraceResult> uncertified;
+    std::string degenerate;
+    for (const TraceDemands& demands : demands_in_turn()) {
       try {
         TraceResult trace =
-            trace_surface(field_, demands_, threads_, [&](const std::string& stage) { watch_.finished(stage); });
-        if (trace.uncertified.empty() || !demand_less()) return trace;
-      } catch (const LatticeDegenerate& degenerate) {
-        if (!demand_less()) throw CannotMeshError(std::string(degenerate.what()) + "; another spacing may help");
+            trace_surface(field_, demands, threads_, [&](const std::string& stage) { watch_.finished(stage); });
+        if (trace.uncertified.empty()) {
+          demands_ = demands;
+          return trace;
+        }
+        uncertified = std::move(trace);
+      } catch (const LatticeDegenerate& error) {
+        degenerate = error.what();
       }
+      can_be_finer_ = false;
     }
+    if (uncertified) return std::move(*uncertified);
+    throw CannotMeshError(degenerate + "; another spacing may help");
   }
 
-  /// @return whether there was anything to leave out
-  bool demand_less() {
-    can_be_finer_ = false;
-    if (!demands_.fine_places.empty()) {
-      demands_.fine_places.clear();
-      return true;
+  /// What is demanded, and then less: the lattice of smaller cells may be degenerate where that of the others is not.
+  /// At last, where the cells are large, less large ones: near a critical value of phi the proof may need smaller boxes
+  /// than are the smallest parts of large cells. A mesh as traced has the cells that were asked for.
+  std::vector<TraceDemands> demands_in_turn() const {
+    constexpr double kSmallCells = 0.5, kLeastPart = 0.125;  // A; of the spacing
+    std::vector<TraceDemands> demands = {demands_};
+    const auto add = [&](const auto& change) {
+      demands.push_back(demands.back());
+      change(demands.back());
+    };
+    if (!demands_.fine_places.empty()) add([](TraceDemands& less) { less.fine_places.clear(); });
+    if (demands_.spacing < options_.spacing) add([&](TraceDemands& less) { less.spacing = options_.spacing; });
+    if (demands_.for_improvement) add([](TraceDemands& less) { less.for_improvement = false; });
+    if (options_.improve && options_.spacing > kSmallCells) {
+      add([&](TraceDemands& other) { other.spacing = std::max(kSmallCells, kLeastPart * options_.spacing); });
     }
-    if (demands_.spacing < options_.spacing) {
-      demands_.spacing = options_.spacing;
-      return true;
-    }
-    return std::exchange(demands_.for_improvement, false);
+    return demands;
   }
 
   /// Improves a traced mesh. @return the corners of triangles with small angles that are left

@@ -99,3 +99,14 @@ TEST_CASE("where one vertex in twenty is at a bad triangle mending goes on until
     CHECK(mesh_surface(atoms, improved(8.0, 1.0, 1.5)).report.check.min_angle_deg > 30.0);
   }
 }
+
+TEST_CASE("near a critical level that large cells cannot certify smaller ones do, and a mesh as traced says so") {
+  // Two spheres that nearly touch: between them phi is c (1 - 5e-7) at most.
+  const std::vector<Atom> atoms = {{0, 0, 0, 14, 0}, {17.3, 19.1, 12.4, 14, 0}};
+  const double isovalue = 0.007883665490959148;
+  const MeshResult result = mesh_surface(atoms, improved(0.654, isovalue, 5.0));
+  CHECK(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}, {0, false}});
+  CHECK(result.report.check.min_angle_deg > 30.0);
+  CHECK_THROWS_WITH(mesh_surface(atoms, options(0.654, isovalue, 5.0)), ContainsSubstring("a smaller spacing"));
+}
