@@ -15,6 +15,7 @@ std::vector<CriticalPlace> critical_places(const GaussianField& field, const std
                                            double isovalue);
 
 /// Says so, for the user; there is at least one place.
+/// @param smallest_part  edge of the boxes (A) at which the proof gave up; 0 if it was something else that failed
 std::string critical_message(const std::vector<CriticalPlace>& places, double isovalue, double smallest_part);
 
 /// The same where there is no critical point.
