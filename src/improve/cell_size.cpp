@@ -100,8 +100,7 @@ double least_triangle_count(const SizeSamples& samples) {
   double most = 0.0;
   for (std::size_t i = 0; i < samples.sizes.size(); ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(samples.sizes.size());
-    const double area = share * samples.area, size = samples.sizes[i];
-    most = std::max(most, area / (0.25 * std::numbers::sqrt3 * size * size));
+    most = std::max(most, triangles_on(share * samples.area, samples.sizes[i]));
   }
   return most;
 }

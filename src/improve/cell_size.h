@@ -1,12 +1,16 @@
 // What can be known of the triangles to come before anything is traced: from their sizes at a few hundred places.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "field/gaussian_field.h"
 #include "improve/size_field.h"
 
 namespace gaussmesh {
+
+/// So many equilateral triangles of an edge (A) cover an area (A^2).
+inline double triangles_on(double area, double edge) { return area / (0.25 * std::numbers::sqrt3 * edge * edge); }
 
 /// Area (A^2) of the spheres of the atoms, each alone: more than that of the surface but for necks.
 double area_of_spheres(const GaussianField& field);

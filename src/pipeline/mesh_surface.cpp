@@ -240,9 +240,8 @@ class SurfaceMesher {
     if (!demands_.fine_places.empty()) add([](TraceDemands& less) { less.fine_places.clear(); });
     if (demands_.spacing < options_.spacing) add([&](TraceDemands& less) { less.spacing = options_.spacing; });
     if (demands_.for_improvement) add([](TraceDemands& less) { less.for_improvement = false; });
-    if (options_.improve && options_.spacing > kSmallCells) {
-      add([&](TraceDemands& other) { other.spacing = std::max(kSmallCells, kLeastPart * options_.spacing); });
-    }
+    const double small = std::max(kSmallCells, kLeastPart * options_.spacing);
+    if (options_.improve && small < demands_.spacing) add([&](TraceDemands& other) { other.spacing = small; });
     return demands;
   }
 

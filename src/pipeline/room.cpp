@@ -1,10 +1,9 @@
 #include "pipeline/room.h"
 
-#include <numbers>
-
 #include "core/number_text.h"
 #include "gaussmesh/error.h"
 #include "improve/cell_size.h"
+#include "trace/face_tracer.h"
 
 namespace gaussmesh {
 namespace {
@@ -12,8 +11,8 @@ namespace {
 /// Less than large meshes of proteins take at the peak.
 constexpr double kBytesPerTriangle = 100.0, kBytesPerTriangleAsTraced = 60.0;
 
-/// Triangles have two vertices each, which are numbered by 31 bits.
-constexpr double kMostTriangles = 4294967296.0;
+/// There are two of them to a vertex.
+constexpr double kMostTriangles = 2.0 * double(kLocalVertex);
 
 double bytes_for(double triangles, const MeshOptions& options) {
   return triangles * (options.improve ? kBytesPerTriangle : kBytesPerTriangleAsTraced);
@@ -40,11 +39,10 @@ void require_room(double triangles, const MeshOptions& options) {
 }
 
 void require_room_as_traced(const GaussianField& field, const MeshOptions& options) {
-  const double of_one = 0.25 * std::numbers::sqrt3 * options.spacing * options.spacing;
-  if (is_room(area_of_spheres(field) / of_one, options)) return;
+  if (is_room(triangles_on(area_of_spheres(field), options.spacing), options)) return;
   SizeTargets targets;
   targets.spacing = options.spacing;
-  require_room(sample_sizes(field, targets).area / of_one, options);
+  require_room(triangles_on(sample_sizes(field, targets).area, options.spacing), options);
 }
 
 }  // namespace gaussmesh
