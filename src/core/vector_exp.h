@@ -46,6 +46,17 @@ inline double vector_exp(double x) {
   return p * std::bit_cast<double>(exponent);
 }
 
+/// A number of [1, 1.062] exp(x), for x in [-700, 700]: the chord of 2^y between whole numbers, a third of the cost of
+/// vector_exp().
+inline double exp_above(double x) {
+  constexpr double kLog2e = 1.4426950408889634;
+  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52, as above
+  // y = x / ln 2 + 1023 in parts of 2^-20, rounded up: as the high half of a double's bits its whole part is the
+  // exponent, and the rest of it the fraction.
+  const double shifted = x * (kLog2e * 0x1p20) + (1023.0 * 0x1p20 + 1.0 + kRound);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(shifted) << 32);
+}
+
 /// Error of vector_log(): the terms left out are below 2e-11, and rounding of n log(2) is below 1e-13.
 inline constexpr double kVectorLogError = 1e-10;
 

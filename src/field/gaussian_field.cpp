@@ -62,6 +62,7 @@ std::uint32_t GaussianField::build(std::vector<WeightedCentre>& atoms, std::uint
       node.box.hi[k] = std::max(node.box.hi[k], atoms[i].centre[k]);
     }
   }
+  node.w_all = node.w_max + std::log(static_cast<double>(last - first));
   nodes_.push_back(node);
   if (last - first <= kLeafSize) return index;
 
@@ -84,8 +85,9 @@ void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) co
   near.clear();
   near.cut = cut;
   thread_local std::vector<std::uint32_t> kept;
-  std::size_t count = 0, left_out = 0;
-  double left_out_w = 0.0;
+  thread_local std::vector<double> exponents;  // of the atoms in the leaves visited
+  std::size_t count = 0, visited = 0;
+  double visited_w = 0.0;
   std::uint32_t stack[64];
   int top = 0;
   stack[top++] = 0;
@@ -93,26 +95,26 @@ void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) co
     const std::uint32_t index = stack[--top];
     const Node& node = nodes_[index];
     const double node_sq = distance_sq(node.box, box);
-    if (node.w_max - decay_ * node_sq < -cut) {
+    if (node.w_all - decay_ * node_sq < -cut) {
       near.add_to_tail(node.last - node.first, node.w_max, node_sq, decay_);
     } else if (node.right != 0) {
       stack[top++] = node.right;
       stack[top++] = index + 1;
     } else {
-      double exponent[kLeafSize];
       const std::uint32_t members = node.last - node.first;
+      if (exponents.size() < visited + kLeafSize) exponents.resize(2 * (visited + kLeafSize));
+      double* const exponent = exponents.data() + visited;
       largest_exponents(atoms_, node.first, members, box, decay_, exponent);
       if (kept.size() < count + kLeafSize) kept.resize(2 * (count + kLeafSize));
-      const std::size_t before = count;
       for (std::uint32_t i = 0; i < members; ++i) {
         kept[count] = node.first + i;
         count += exponent[i] >= -cut;
       }
-      left_out += members - (count - before);
-      left_out_w = std::max(left_out_w, node.w_size);
+      visited += members;
+      visited_w = std::max(visited_w, node.w_size);
     }
   }
-  near.add_cut_to_tail(static_cast<double>(left_out), left_out_w, decay_);
+  if (count < visited) near.add_to_tail(exponents.data(), visited, visited_w, decay_);
   near.take(atoms_, kept, count);
 }
 

@@ -38,6 +38,7 @@ class GaussianField {
   struct Node {
     Box box;  ///< of the centres
     double w_max = 0.0;
+    double w_all = 0.0;       ///< log of what its atoms have together at most
     double w_size = 0.0;      ///< largest |w|
     std::uint32_t first = 0;  ///< atoms first .. last - 1
     std::uint32_t last = 0;

@@ -50,7 +50,7 @@ Extremes extremes_of(const double* values, std::size_t n) {
 /// Exponents below this count as this: e^-600 = 1e-261.
 constexpr double kLeastExponent = -600.0;
 
-/// Over exponents E below -cut: the sums of e^E and of e^E max(w - E, 1/2).
+/// Over exponents E below -cut: bounds of the sums of e^E and of e^E max(w - E, 1/2).
 struct LeftOutSums {
   double weight, weight_times_distance;
 };
@@ -62,7 +62,7 @@ LeftOutSums sum_left_out(const double* exponent, std::size_t n, double cut, doub
   for (std::size_t i = 0; i < n; ++i) {
     const double counted = exponent[i] < -cut ? exponent[i] : kLeastExponent;
     const double e = counted > kLeastExponent ? counted : kLeastExponent;
-    const double a = vector_exp(e);
+    const double a = exp_above(e);
     weight += a;
     times_distance += a * std::max(w - e, 0.5);
   }
@@ -142,17 +142,6 @@ void NearAtoms::add_to_tail(double count, double w_max, double distance_sq, doub
   tail_slope += 2.0 * decay * r * value * (1.0 + 1e-9);
 }
 
-void NearAtoms::add_cut_to_tail(double count, double largest_w, double decay) {
-  if (count == 0.0) return;
-  // Rounding of the exponents: those a little above the cut may be left out as well.
-  const double at_cut = cut - exponents_slack(largest_w, cut);
-  // The slope 2 d r e^E of an atom with exponent E = w - d r^2 < -at_cut is 2 sqrt(d (w - E)) e^E, which grows with
-  // E up to w - E = 1/2.
-  const double value = count * (std::exp(-at_cut) * (1.0 + 1e-9) + 1e-300);
-  tail += value;
-  tail_slope += 2.0 * std::sqrt(decay * std::max(largest_w + at_cut, 0.5)) * value * (1.0 + 1e-9);
-}
-
 void NearAtoms::add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay) {
   const LeftOutSums sums = sum_left_out(exponent, n, cut, largest_w);
   const double factor = std::exp(exponents_slack(largest_w, -kLeastExponent)) * (1.0 + sum_error(n));
@@ -177,13 +166,7 @@ void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double de
     kept[count] = static_cast<std::uint32_t>(i);
     count += exponent[i] >= -cut;
   }
-  // In lists for proofs, which leave out what counts a little, the exact sum pays.
-  constexpr double kSmallCut = 12.0;
-  if (cut > kSmallCut) {
-    add_cut_to_tail(static_cast<double>(parent.size() - count), parent.w_size, decay);
-  } else if (count < parent.size()) {
-    add_to_tail(exponent.data(), parent.padded(), parent.w_size, decay);
-  }
+  if (count < parent.size()) add_to_tail(exponent.data(), parent.padded(), parent.w_size, decay);
   take(parent, kept, count);
 }
 

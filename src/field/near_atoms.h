@@ -48,10 +48,6 @@ class NearAtoms : public WeightedCentres {
   /// Accounts for `count` atoms left out, each with log-weight at most `w_max` and at least `distance_sq` away.
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
-  /// Accounts for `count` atoms left out, each with |log-weight| at most `largest_w`, whose largest exponents came
-  /// out below -cut.
-  void add_cut_to_tail(double count, double largest_w, double decay);
-
   /// Accounts for the atoms left out of `n` with |log-weight| at most `largest_w`: those whose largest exponents are
   /// below -cut. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with r from w - E = 1/2 on; the sum
   /// of the slopes is at most 2 sqrt(d sum e^E sum (w - E) e^E), by Cauchy and Schwarz.

@@ -1,6 +1,7 @@
 // A tree of boxes over atoms, to find those that count at a place in a sum of Gaussians.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -39,11 +40,13 @@ class AtomTree {
 
   /// Calls visit(atoms), with some neighbours at a time, so that every atom is visited whose exponent is at least
   /// `least` at some point of `place`, and some others; and for all that are not visited leave_out(exponent,
-  /// count): so many atoms at most, whose exponents are nowhere in `place` larger than that.
+  /// count): so many atoms at most, whose exponents are nowhere in `place` larger than that. Where many are left out
+  /// at once, they are as far below `least` as makes all of them count like few, with this decay.
   template <class Visit, class LeaveOut>
-  void for_each_group_reaching(const BoundingBox& place, double least, const Visit& visit,
+  void for_each_group_reaching(const BoundingBox& place, double least, double decay, const Visit& visit,
                                const LeaveOut& leave_out) const {
-    visit_groups_below(levels_.size(), 0, place, least, visit, leave_out);
+    const double below_per_level = std::log(static_cast<double>(kFanOut)) / decay;
+    visit_groups_below(levels_.size(), 0, place, least, below_per_level, visit, leave_out);
   }
 
  private:
@@ -105,18 +108,19 @@ class AtomTree {
 
   template <class Visit, class LeaveOut>
   void visit_groups_below(std::size_t level, std::size_t index, const BoundingBox& place, double least,
-                          const Visit& visit, const LeaveOut& leave_out) const {
+                          double below_per_level, const Visit& visit, const LeaveOut& leave_out) const {
     constexpr std::size_t kVisited = 2;                       // the level whose groups are visited whole
     const std::size_t under = std::size_t{1} << (2 * level);  // 4^level atoms
     const double largest = largest_exponent(levels_[level - 1][index], place);
-    if (largest < least) {
+    const double levels_above = level > kVisited ? static_cast<double>(level - kVisited) : 0.0;
+    if (largest < least - levels_above * below_per_level) {
       leave_out(largest, under);
     } else if (level <= kVisited) {
       visit(std::span(atoms_).subspan(index * under, std::min(under, atoms_.size() - index * under)));
     } else {
       const std::size_t end = std::min((index + 1) * kFanOut, size_of(level - 1));
       for (std::size_t child = index * kFanOut; child < end; ++child)
-        visit_groups_below(level - 1, child, place, least, visit, leave_out);
+        visit_groups_below(level - 1, child, place, least, below_per_level, visit, leave_out);
     }
   }
 

@@ -209,7 +209,7 @@ void FootFinder::gather(const BoundingBox& place) {
   visited_.size = 0;
   left_out_ = 0.0;
   tree_.for_each_group_reaching(
-      place, (log_isovalue_ - least_share_) / decay_,
+      place, (log_isovalue_ - least_share_) / decay_, decay_,
       [&](std::span<const Atom> atoms) {
         visited_.make_room(visited_.size + atoms.size());
         for (const Atom& atom : atoms) visited_.append(atom);

@@ -55,6 +55,27 @@ TEST_CASE("vector_exp is clamped, and so is always a positive finite number") {
   }
 }
 
+TEST_CASE("exp_above is nowhere below exp, and 6.2 % above it at most") {
+  const std::uint64_t seed = 3;
+  CAPTURE(seed);
+  Random random(seed);
+  long double least = 2.0L, largest = 0.0L;
+  const auto look_at = [&](double x) {
+    const long double ratio = static_cast<long double>(exp_above(x)) / std::exp(static_cast<long double>(x));
+    least = std::min(least, ratio);
+    largest = std::max(largest, ratio);
+  };
+  for (int i = 0; i < 1000000; ++i) look_at(random.uniform(-700.0, 700.0));
+  for (int n = -1009; n <= 1009; ++n) {  // where the chords meet
+    const double at = n * std::log(2.0);
+    for (const double x : {std::nextafter(at, -1e9), at, std::nextafter(at, 1e9)}) look_at(x);
+  }
+  for (const double x : {-700.0, -0.0, 0.0, 1e-300, -1e-300, 700.0}) look_at(x);
+  CHECK(least >= 1.0L);
+  CHECK(largest <= 1.062L);
+  CHECK(largest > 1.06L);
+}
+
 TEST_CASE("vector_log keeps its error over all normal numbers, and where the exponent changes over") {
   const std::uint64_t seed = 4;
   CAPTURE(seed);

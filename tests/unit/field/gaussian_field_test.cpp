@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "catch2.h"
+#include "core/vectors.h"
 #include "support/fields.h"
 
 using namespace gaussmesh;
@@ -99,6 +100,27 @@ TEST_CASE("the tail counts clusters of far atoms as a whole, and still bounds th
     out += check_tail(atoms, 0.5, near, box, random);
   }
   CHECK(out > 10000);
+}
+
+TEST_CASE("among many atoms the tail is not much more than they can add") {
+  std::vector<Atom> atoms;  // as close as in a protein
+  for (int i = 0; i < 32 * 32 * 32; ++i) atoms.push_back({2.1 * (i % 32), 2.1 * (i / 32 % 32), 2.1 * (i / 1024), 1.6});
+  const double decay = 0.6;
+  const GaussianField field(atoms, decay, kIsovalue);
+  for (const double size : {0.1, 2.0, 8.0}) {
+    CAPTURE(size);
+    const Box box{{30.0, 31.0, 32.0}, {30.0 + size, 31.0 + size, 32.0 + size}};
+    NearAtoms near;
+    field.collect_near(box, near);
+    double at_most = 0.0;
+    for (const Atom& a : left_out(atoms, near)) {
+      const double dx = gap(a.x, box.lo[0], box.hi[0]), dy = gap(a.y, box.lo[1], box.hi[1]),
+                   dz = gap(a.z, box.lo[2], box.hi[2]);
+      at_most += std::exp(decay * (a.radius * a.radius - dx * dx - dy * dy - dz * dz)) / kIsovalue;
+    }
+    CHECK(near.tail >= at_most);
+    CHECK(near.tail <= 2.0 * at_most);
+  }
 }
 
 TEST_CASE("restricting a list to a part of its box keeps the bound") {
