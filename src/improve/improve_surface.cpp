@@ -56,9 +56,9 @@ constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
 
-/// Where many are bad and larger boxes do not leave fewer than this part of them, the surface is finer than triangles
-/// may be.
-constexpr double kGain = 0.9;
+/// Where many are bad and larger boxes do not leave fewer than this part of them, or leave so many times as many, the
+/// surface is finer than triangles may be.
+constexpr double kGain = 0.9, kLoss = 2.0;
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -100,6 +100,32 @@ std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std:
   places.reserve(vertices.size());
   for (const std::uint32_t v : vertices) places.push_back({mesh.at[v], double(mesh.size[v])});
   return places;
+}
+
+/// Where the next trace should be finer on account of bad vertices: all along a crease, what was mended of it in this
+/// mesh may be bad in the next.
+std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell) {
+  constexpr double kSmallInCells = 1.0 / 16.0;
+  const auto small = static_cast<float>(kSmallInCells * cell);
+  std::vector<std::uint32_t> parent(mesh.at.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root_of = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t u = t[i], v = t[(i + 1) % 3];
+      if (u < v && mesh.size[u] <= small && mesh.size[v] <= small) parent[root_of(u)] = root_of(v);
+    }
+  }
+  std::vector<std::uint8_t> is_bad(mesh.at.size(), 0);  // by root
+  for (const std::uint32_t v : bad) is_bad[root_of(v)] = 1;
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
+    if (is_bad[root_of(v)]) vertices.push_back(v);
+  }
+  return places_of(mesh, vertices);
 }
 
 /// The corners of triangles with an angle that is too small.
@@ -226,7 +252,8 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
     }
     const bool are_many = static_cast<double>(bad.size()) > kManyBad * static_cast<double>(mesh.at.size());
     is_left = are_many && many_bad == ManyBad::kLeave;
-    if (is_left || (are_many && i - last_gain > kSweepsPerDoubling)) break;
+    const bool is_lost = static_cast<double>(bad.size()) > kLoss * static_cast<double>(fewest);
+    if (is_left || (are_many && (is_lost || i - last_gain > kSweepsPerDoubling))) break;
     const std::vector<Box> boxes =
         take_boxes_round(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling), kMostHalfEdge * targets.spacing);
     std::vector<std::vector<BadPlace>> left(boxes.size());
@@ -235,11 +262,10 @@ ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, 
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
   if (on_progress) on_progress(1.0);
-  std::vector<Vec3> left;
-  if (is_left) {
-    for (const BadPlace& place : bad) left.push_back(place.at);
-  } else if (!is_mended) {
-    for (const std::uint32_t v : find_thin_vertices(mesh, threads)) left.push_back(mesh.at[v]);
+  LeftBad left;
+  if (!is_mended) {
+    const auto corners = is_left ? find_bad_vertices(mesh, threads) : find_thin_vertices(mesh, threads);
+    left = {corners.size(), places_round(corners, mesh, targets.cell)};
   }
   return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(left)};
 }

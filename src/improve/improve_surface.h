@@ -6,6 +6,7 @@
 
 #include "field/gaussian_field.h"
 #include "gaussmesh/triangle_mesh.h"
+#include "improve/bad_places.h"
 #include "improve/sheet_guard.h"
 #include "improve/size_field.h"
 
@@ -17,11 +18,18 @@ struct SurfaceMesh {
   std::vector<Normal> normals;
 };
 
+/// What triangles were left with an angle below 30 degrees, or of all bad ones with ManyBad::kLeave.
+struct LeftBad {
+  std::size_t corners = 0;  ///< of them
+  /// There, and wherever else triangles are connected to them by those that are meant to be much smaller than the cells
+  /// of the trace.
+  std::vector<BadPlace> places;
+};
+
 /// What improvement made of a mesh.
 struct ImprovedSurface {
   SurfaceMesh surface;
-  /// Corners of the triangles that were left with an angle below 30 degrees; of all bad ones with ManyBad::kLeave.
-  std::vector<Vec3> left;
+  LeftBad left;
 };
 
 /// What to do where more than this part of the vertices is at bad triangles in spite of the sweeps over the whole mesh:

@@ -7,10 +7,11 @@ namespace {
 
 using Index = HalfEdgeMesh::Index;
 
-/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves in both directions. A
-/// neck that is about to pinch off may be flat.
+/// What counts of the curvature: no more than asks for kLeastSize, unless the surface curves in both directions. The
+/// waist of a neck that is about to pinch off may be flat, between large atoms that hardly overlap: halfway between two
+/// at a distance D the curvatures are to each other as d D^2 / 2 - 1 to 1.
 double curvature_that_counts(const Curvatures& c, const SizeTargets& targets) {
-  constexpr double kFlattest = 10.0;
+  constexpr double kFlattest = 300.0;  // some two thousand triangles round a waist
   return std::min(c.larger, std::max(kFlattest * c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));
 }
 

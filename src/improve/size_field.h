@@ -33,7 +33,7 @@ inline constexpr double kLeastSize = 0.01;
 
 /// ... but where the surface curves in both directions, as where it nearly pinches off: there are few of such
 /// places, and they are small.
-inline constexpr double kLeastSizeOfAll = 2e-5;
+inline constexpr double kLeastSizeOfAll = 1e-6;
 
 /// The wanted edge (A) at a place by its curvature (1/A) alone: it turns the normal by no more than kTurnPerEdge, a
 /// triangle of that edge stays within the tolerance, and it is no longer than targets.largest().

@@ -16,6 +16,7 @@
 #include "improve/cell_size.h"
 #include "pipeline/check_options.h"
 #include "pipeline/critical_places.h"
+#include "pipeline/finer_traces.h"
 #include "pipeline/room.h"
 #include "pipeline/trace_surface.h"
 
@@ -155,28 +156,14 @@ class SurfaceMesher {
   /// good is improved once more with exact signs for every change.
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
     for (Guarding guarding = Guarding::kCloseSheets;; guarding = Guarding::kEverywhere) {
-      while (demand_finer(improve(trace(), targets, guarding))) {
-      }
+      LeftBad bad;
+      do {
+        bad = improve(trace(), targets, guarding);
+      } while (can_be_finer_ && finer_traces_.demand(bad, result_.mesh.vertices.size(), demands_));
       result_.report.check = check_mesh(result_.mesh);
       watch_.finished("verify");
       if (is_good() || guarding == Guarding::kEverywhere) return;
     }
-  }
-
-  /// Smaller cells at the corners of triangles with small angles: those that bridge what is finer than they are cannot
-  /// always be mended, but those of a finer trace can.
-  /// @return whether there is anything that may help
-  bool demand_finer(const std::vector<Vec3>& bad) {
-    constexpr int kLevels[] = {3, 5};  // one after the other
-    constexpr double kMany = 0.02;     // of the vertices; where more are left of a finer trace triangles cannot be
-                                       // small enough
-    const int level = demands_.fine_places.empty() ? 0 : demands_.fine_places.back().level;
-    const int* next = std::upper_bound(std::begin(kLevels), std::end(kLevels), level);
-    if (bad.empty() || !can_be_finer_ || next == std::end(kLevels)) return false;
-    const double vertices = static_cast<double>(result_.mesh.vertices.size());
-    if (level > 0 && static_cast<double>(bad.size()) > kMany * vertices) return false;
-    for (const Vec3& place : bad) demands_.fine_places.push_back({place, *next});
-    return true;
   }
 
   /// The traced surface, with the certificate in the report.
@@ -221,7 +208,7 @@ class SurfaceMesher {
       } catch (const LatticeDegenerate& error) {
         degenerate = error.what();
       }
-      can_be_finer_ = false;
+      if (!demands.fine_places.empty()) can_be_finer_ = false;
     }
     if (uncertified) return std::move(*uncertified);
     throw CannotMeshError(degenerate + "; another spacing may help");
@@ -245,8 +232,8 @@ class SurfaceMesher {
     return demands;
   }
 
-  /// Improves a traced mesh. @return the corners of triangles with small angles that are left
-  std::vector<Vec3> improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
+  /// Improves a traced mesh. @return what is left bad
+  LeftBad improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
     const std::int64_t chi = euler_number(traced.mesh);
     const ManyBad many_bad = can_be_finer_ && demands_.fine_places.empty() ? ManyBad::kLeave : ManyBad::kMend;
     const GaussianField used(atoms_, options_.decay, result_.report.isovalue_used);
@@ -298,7 +285,8 @@ class SurfaceMesher {
   Stopwatch watch_;
   const GaussianField field_;
   TraceDemands demands_;
-  bool can_be_finer_ = true;  ///< no trace of smaller cells has been degenerate
+  FinerTraces finer_traces_;
+  bool can_be_finer_ = true;  ///< no finer trace has failed
   bool has_same_topology_ = true;
 };
 

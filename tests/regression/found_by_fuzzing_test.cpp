@@ -1,4 +1,6 @@
 // Inputs for which the program once gave a wrong answer, or none.
+#include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "catch2.h"
@@ -88,6 +90,23 @@ TEST_CASE(
   CHECK(smallest_angle({{0, 0, 0, 40, 0}, {50, 0, 0, 40, 0}}, 0.6, 1.7, 5.0) > 30.0);
   CHECK(smallest_angle({{0, 0, 0, 30, 0}, {30, 0, 0, 30, 0}}, 0.6, 1.7, 5.0) > 30.0);
   CHECK(smallest_angle({{0.186, 0.207, 0.118, 2, 0}, {4.186, 0.207, 0.118, 2, 0}}, 10.0, 1.0, 0.5) > 30.0);
+}
+
+TEST_CASE(
+    "the waist of a neck between large spheres, a sharp edge round a small hole, has triangles as small as it needs") {
+  const auto smallest_angle = [](double distance, double radius, double decay, double nearness, double spacing) {
+    const double half = 0.5 * distance;
+    const std::array<double, 3> along = {0.48 * half, 0.6 * half, 0.64 * half};
+    const std::vector<Atom> atoms = {{0.3 - along[0], 0.2 - along[1], 0.1 - along[2], radius, 0},
+                                     {0.3 + along[0], 0.2 + along[1], 0.1 + along[2], radius, 0}};
+    const double saddle = 2.0 * std::exp(-decay * (half * half - radius * radius));
+    const MeshResult result = mesh_surface(atoms, improved(decay, (1.0 - nearness) * saddle, spacing));
+    CHECK(topology(result) == std::vector<Piece>{{0, false}});
+    return result.report.check.min_angle_deg;
+  };
+  CHECK(smallest_angle(16.32, 8.0, 0.6, 1e-5, 0.5) > 30.0);
+  CHECK(smallest_angle(16.32, 8.0, 2.0, 1e-3, 1.5) > 30.0);
+  CHECK(smallest_angle(6.12, 3.0, 2.0, 1e-6, 1.5) > 30.0);
 }
 
 TEST_CASE("where one vertex in twenty is at a bad triangle mending goes on until angles are good") {
