@@ -11,7 +11,7 @@ using Index = HalfEdgeMesh::Index;
 /// waist of a neck that is about to pinch off may be flat, between large atoms that hardly overlap: halfway between two
 /// at a distance D the curvatures are to each other as d D^2 / 2 - 1 to 1.
 double curvature_that_counts(const Curvatures& c, const SizeTargets& targets) {
-  constexpr double kFlattest = 300.0;  // some two thousand triangles round a waist
+  constexpr double kFlattest = 300.0;  // some 1600 edges round a waist
   return std::min(c.larger, std::max(kFlattest * c.smaller, kTurnPerEdge / (kLeastSize * targets.spacing)));
 }
 
