@@ -43,6 +43,10 @@ int slab_of(Real x, int count) {
 inline constexpr int kMaxLevel = 16;
 inline constexpr std::int64_t kFinePerCell = std::int64_t{1} << kMaxLevel;
 
+/// Cells of level 0 near the surface are numbered from -kMostCellNumber to kMostCellNumber along each axis: that leaves
+/// room in 32 bits.
+inline constexpr double kMostCellNumber = 2.0e9;
+
 /// Position on the finest lattice: cells of level 0 begin at multiples of kFinePerCell.
 using FineIndex = std::array<std::int64_t, 3>;
 

@@ -1,5 +1,6 @@
 #include "improve/bad_places.h"
 
+#include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "core/sort_and_unite.h"
 
@@ -97,6 +98,32 @@ std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads
                                      });
   sort_and_unite(thin);
   return thin;
+}
+
+std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<BadPlace> places;
+  places.reserve(vertices.size());
+  for (const std::uint32_t v : vertices) places.push_back({mesh.at[v], double(mesh.size[v])});
+  return places;
+}
+
+std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell) {
+  constexpr double kSmallInCells = 1.0 / 16.0;
+  const auto small = static_cast<float>(kSmallInCells * cell);
+  DisjointSets connected(mesh.at.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t u = t[i], v = t[(i + 1) % 3];
+      if (u < v && mesh.size[u] <= small && mesh.size[v] <= small) connected.unite(u, v);
+    }
+  }
+  std::vector<std::uint8_t> is_bad(mesh.at.size(), 0);  // by the vertex that stands for those connected
+  for (const std::uint32_t v : bad) is_bad[connected.find(v)] = 1;
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
+    if (is_bad[connected.find(v)]) vertices.push_back(v);
+  }
+  return places_of(mesh, vertices);
 }
 
 std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_around, double most) {

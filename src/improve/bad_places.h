@@ -25,6 +25,13 @@ struct BadPlace {
   double size;  ///< wanted edge (A)
 };
 
+std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices);
+
+/// Places of bad vertices, and of all that are connected with them through edges meant to be much shorter than the cells
+/// (A) of the trace: of a long crease, what was mended in this mesh may be bad in the next.
+/// Cost: two passes over the triangles.
+std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell);
+
 /// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
 /// @param sizes_around  from a place to the faces of its cube, in wanted edges there
 /// @param most          A, and no farther than this

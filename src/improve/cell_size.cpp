@@ -51,7 +51,7 @@ std::optional<Sample> sample_near(const GaussianField& field, std::size_t atom, 
   BlockField near(field, {start - reach, start + reach});
   const std::optional<Place> place = near.project(start, farthest, Accuracy::kRough);
   if (!place) return std::nullopt;  // buried
-  const double size = wanted_size(principal_curvatures(near.jet(place->at)).larger, targets);
+  const double size = wanted_size(principal_curvatures(near.jet(place->at)), targets);
   // Seen from the centre the surface is in one place. Shares of atoms are their parts of phi, which is c, so that all
   // atoms together count a place once.
   const std::optional<Place> seen = near.project_along(direction, start, farthest);
@@ -97,8 +97,9 @@ double suitable_cell_size(const SizeSamples& samples, double spacing) {
 }
 
 double least_triangle_count(const SizeSamples& samples) {
+  constexpr std::size_t kByChance = 4;  // so many samples may lie on a crease that is a thousandth of the surface
   double most = 0.0;
-  for (std::size_t i = 0; i < samples.sizes.size(); ++i) {
+  for (std::size_t i = std::min(kByChance, samples.sizes.size() / 2); i < samples.sizes.size(); ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(samples.sizes.size());
     most = std::max(most, triangles_on(share * samples.area, samples.sizes[i]));
   }

@@ -56,9 +56,12 @@ constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
 
-/// Where many are bad and larger boxes do not leave fewer than this part of them, or leave so many times as many, the
-/// surface is finer than triangles may be.
-constexpr double kGain = 0.9, kLoss = 2.0;
+/// Where many are bad, a few sweeps that leave no fewer than this part of them are the last ...
+constexpr double kGain = 0.9;
+
+/// ... and so is one that leaves so many times as many: the surface is finer than triangles may be.
+constexpr double kLoss = 2.0;
+
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
 
@@ -93,39 +96,6 @@ double mean_edge(const WholeMesh& mesh, int threads) {
 /// Edge (A) of blocks for a mesh as it was traced.
 double block_edge(double cell, double mean_edge) {
   return std::clamp(kBlockEdgeInEdges * mean_edge, kLeastBlockEdge * cell, kBlockEdge * cell);
-}
-
-std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices) {
-  std::vector<BadPlace> places;
-  places.reserve(vertices.size());
-  for (const std::uint32_t v : vertices) places.push_back({mesh.at[v], double(mesh.size[v])});
-  return places;
-}
-
-/// Where the next trace should be finer on account of bad vertices: all along a crease, what was mended of it in this
-/// mesh may be bad in the next.
-std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell) {
-  constexpr double kSmallInCells = 1.0 / 16.0;
-  const auto small = static_cast<float>(kSmallInCells * cell);
-  std::vector<std::uint32_t> parent(mesh.at.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root_of = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Triangle& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t u = t[i], v = t[(i + 1) % 3];
-      if (u < v && mesh.size[u] <= small && mesh.size[v] <= small) parent[root_of(u)] = root_of(v);
-    }
-  }
-  std::vector<std::uint8_t> is_bad(mesh.at.size(), 0);  // by root
-  for (const std::uint32_t v : bad) is_bad[root_of(v)] = 1;
-  std::vector<std::uint32_t> vertices;
-  for (std::uint32_t v = 0; v < mesh.at.size(); ++v) {
-    if (is_bad[root_of(v)]) vertices.push_back(v);
-  }
-  return places_of(mesh, vertices);
 }
 
 /// The corners of triangles with an angle that is too small.
@@ -204,70 +174,111 @@ std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_fie
   }
 }
 
+/// Makes one mesh over: first all of it, then what is still bad.
+class SurfaceImprover {
+ public:
+  SurfaceImprover(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets, Guarding guarding,
+                  int threads, const std::function<void(double share_done)>& on_progress)
+      : mesh_(start_with(std::move(traced), targets.spacing)),
+        field_(field),
+        targets_(targets),
+        guarding_(guarding),
+        threads_(threads),
+        on_progress_(on_progress) {
+    for (const Sweep& sweep : kSweeps) all_effort_ += sweep.effort;
+  }
+
+  void sweep_all() {
+    const double edge = block_edge(targets_.cell, mean_edge(mesh_, threads_));
+    int number = 0;
+    for (const Sweep& sweep : kSweeps) {
+      const double shift = edge * number++ / kSweepsWithOtherPlanes;
+      run(MeshBlocks(std::move(mesh_), edge, {shift, shift, shift}, threads_), sweep.effort,
+          [&](std::size_t, BlockMesh& block) { improve_block(block, field_, targets_, guarding_, sweep); });
+      if (number > kSweepsForLargest) continue;
+      const double wish = targets_.largest() / mean_edge(mesh_, threads_);
+      targets_.largest_factor = std::clamp(wish, 1.0, kLargestFactor);
+      if (number == kSweepsForLargest) std::fill(mesh_.curvature.begin(), mesh_.curvature.end(), -1.0f);
+    }
+  }
+
+  /// @return what is left bad
+  LeftBad mend_in_boxes(ManyBad many_bad) {
+    std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
+    std::size_t fewest = mesh_.at.size();
+    int last_gain = 0;
+    for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
+      if (bad.empty()) bad = places_of(mesh_, find_bad_vertices(mesh_, threads_));
+      if (bad.empty()) return {};
+      const auto count = static_cast<double>(bad.size()), before = static_cast<double>(fewest);
+      if (count < kGain * before) {
+        fewest = bad.size();
+        last_gain = i;
+      }
+      if (count > kManyBad * static_cast<double>(mesh_.at.size())) {
+        if (many_bad == ManyBad::kLeave) return left_at(find_bad_vertices(mesh_, threads_));
+        if (count > kLoss * before || i - last_gain > kSweepsPerDoubling) break;
+      }
+      mend(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling));
+    }
+    return left_at(find_thin_vertices(mesh_, threads_));
+  }
+
+  SurfaceMesh release() && {
+    if (on_progress_) on_progress_(1.0);
+    return {{std::move(mesh_.at), std::move(mesh_.triangles)}, std::move(mesh_.normal)};
+  }
+
+ private:
+  /// Works on all blocks, work(number, block), and joins them again.
+  template <typename Work>
+  void run(MeshBlocks blocks, double effort, const Work& work) {
+    std::atomic<int> blocks_done = 0;
+    const std::vector<std::uint32_t> order = blocks.largest_first();
+    parallel_for(order.size(), threads_, [&](std::size_t i) {
+      const std::size_t b = order[i];
+      BlockMesh block = blocks.extract(b);
+      work(b, block);
+      blocks.store(b, std::move(block));
+      if (!on_progress_) return;
+      on_progress_((effort_done_ + effort * ++blocks_done / static_cast<double>(blocks.size())) / all_effort_);
+    });
+    effort_done_ += effort;
+    mesh_ = std::move(blocks).join(threads_);
+  }
+
+  /// In boxes round some of the places, which are taken from the list; those that are bad afterwards are added.
+  void mend(std::vector<BadPlace>& bad, double sizes_in_half_a_box) {
+    const std::vector<Box> boxes = take_boxes_round(bad, sizes_in_half_a_box, kMostHalfEdge * targets_.spacing);
+    std::vector<std::vector<BadPlace>> left(boxes.size());
+    run(MeshBlocks(std::move(mesh_), boxes, threads_), kEffortInBoxes,
+        [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field_, targets_, guarding_); });
+    for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
+  }
+
+  LeftBad left_at(const std::vector<std::uint32_t>& vertices) const {
+    return {find_thin_vertices(mesh_, threads_).size(), places_round(vertices, mesh_, targets_.cell)};
+  }
+
+  WholeMesh mesh_;
+  const GaussianField& field_;
+  SizeTargets targets_;
+  const Guarding guarding_;
+  const int threads_;
+  const std::function<void(double share_done)>& on_progress_;
+  double all_effort_ = kMostSweepsOfBoxes * kEffortInBoxes;
+  double effort_done_ = 0.0;
+};
+
 }  // namespace
 
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
                                 Guarding guarding, ManyBad many_bad, int threads,
                                 const std::function<void(double share_done)>& on_progress) {
-  WholeMesh mesh = start_with(std::move(traced), targets.spacing);
-  const double edge = block_edge(targets.cell, mean_edge(mesh, threads));
-  SizeTargets now = targets;
-  double all = kMostSweepsOfBoxes * kEffortInBoxes, done = 0.0;
-  for (const Sweep& sweep : kSweeps) all += sweep.effort;
-  const auto run = [&](MeshBlocks blocks, double effort, const auto& work) {
-    std::atomic<int> blocks_done = 0;
-    const std::vector<std::uint32_t> order = blocks.largest_first();
-    parallel_for(order.size(), threads, [&](std::size_t i) {
-      const std::size_t b = order[i];
-      BlockMesh block = blocks.extract(b);
-      work(b, block);
-      blocks.store(b, std::move(block));
-      if (on_progress) on_progress((done + effort * ++blocks_done / static_cast<double>(blocks.size())) / all);
-    });
-    done += effort;
-    return std::move(blocks).join(threads);
-  };
-  int number = 0;
-  for (const Sweep& sweep : kSweeps) {
-    const double shift = edge * number++ / kSweepsWithOtherPlanes;
-    mesh = run(MeshBlocks(std::move(mesh), edge, {shift, shift, shift}, threads), sweep.effort,
-               [&](std::size_t, BlockMesh& block) { improve_block(block, field, now, guarding, sweep); });
-    if (number <= kSweepsForLargest) {
-      const double wish = now.largest() / mean_edge(mesh, threads);
-      now.largest_factor = std::clamp(wish, 1.0, kLargestFactor);
-      if (number == kSweepsForLargest) std::fill(mesh.curvature.begin(), mesh.curvature.end(), -1.0f);
-    }
-  }
-  std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
-  bool is_mended = false, is_left = false;
-  std::size_t fewest = mesh.at.size();
-  int last_gain = 0;
-  for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
-    if (bad.empty()) bad = places_of(mesh, find_bad_vertices(mesh, threads));
-    is_mended = bad.empty();
-    if (is_mended) break;
-    if (static_cast<double>(bad.size()) < kGain * static_cast<double>(fewest)) {
-      fewest = bad.size();
-      last_gain = i;
-    }
-    const bool are_many = static_cast<double>(bad.size()) > kManyBad * static_cast<double>(mesh.at.size());
-    is_left = are_many && many_bad == ManyBad::kLeave;
-    const bool is_lost = static_cast<double>(bad.size()) > kLoss * static_cast<double>(fewest);
-    if (is_left || (are_many && (is_lost || i - last_gain > kSweepsPerDoubling))) break;
-    const std::vector<Box> boxes =
-        take_boxes_round(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling), kMostHalfEdge * targets.spacing);
-    std::vector<std::vector<BadPlace>> left(boxes.size());
-    mesh = run(MeshBlocks(std::move(mesh), boxes, threads), kEffortInBoxes,
-               [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field, now, guarding); });
-    for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
-  }
-  if (on_progress) on_progress(1.0);
-  LeftBad left;
-  if (!is_mended) {
-    const auto corners = is_left ? find_bad_vertices(mesh, threads) : find_thin_vertices(mesh, threads);
-    left = {corners.size(), places_round(corners, mesh, targets.cell)};
-  }
-  return {{{std::move(mesh.at), std::move(mesh.triangles)}, std::move(mesh.normal)}, std::move(left)};
+  SurfaceImprover improver(std::move(traced), field, targets, guarding, threads, on_progress);
+  improver.sweep_all();
+  LeftBad left = improver.mend_in_boxes(many_bad);
+  return {std::move(improver).release(), std::move(left)};
 }
 
 }  // namespace gaussmesh

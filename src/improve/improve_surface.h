@@ -18,11 +18,10 @@ struct SurfaceMesh {
   std::vector<Normal> normals;
 };
 
-/// What triangles were left with an angle below 30 degrees, or of all bad ones with ManyBad::kLeave.
+/// What was not mended.
 struct LeftBad {
-  std::size_t corners = 0;  ///< of them
-  /// There, and wherever else triangles are connected to them by those that are meant to be much smaller than the cells
-  /// of the trace.
+  std::size_t corners = 0;  ///< of triangles with an angle below 30 degrees
+  /// Where the next trace should be finer: places_round() these triangles, or all bad ones with ManyBad::kLeave.
   std::vector<BadPlace> places;
 };
 
@@ -32,11 +31,11 @@ struct ImprovedSurface {
   LeftBad left;
 };
 
-/// What to do where more than this part of the vertices is at bad triangles in spite of the sweeps over the whole mesh:
-/// mostly the trace has bridged what is finer than its cells, and that of finer cells is mended in a fraction of the
-/// time; or else the surface is finer than triangles may be.
+/// Many bad vertices, as part of all, after the sweeps over the whole mesh: mostly the trace has bridged what is finer
+/// than its cells. A trace of finer cells is then mended in a fraction of the time.
 inline constexpr double kManyBad = 0.2;
 
+/// What to do with them.
 enum class ManyBad {
   kLeave,  ///< to a finer trace
   kMend,   ///< as long as it helps
@@ -50,8 +49,10 @@ enum class ManyBad {
 /// are still bad (bad_places.h): the same bits for any number of threads.
 ///
 /// @param traced   closed, oriented, embedded
-/// @param targets  spacing at most kLargestSpacing; `largest_factor` is found here
+/// @param targets      spacing at most kLargestSpacing; `largest_factor` is found here
+/// @param guarding     which triangles are kept apart by exact signs
 /// @param on_progress  called after each block, on any thread
+/// @return the mesh, and what is left bad in it; nothing where all angles are kLeastAngleDeg at least
 /// Cost: about twenty sums over the atoms nearby for each vertex.
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,
                                 Guarding guarding, ManyBad many_bad, int threads,

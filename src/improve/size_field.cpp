@@ -20,6 +20,15 @@ double least_size(double curvature, const SizeTargets& targets) {
   return std::max(std::min(kLeastSize * targets.spacing, kTurnPerEdge / curvature), kLeastSizeOfAll * targets.spacing);
 }
 
+/// Wanted edge where such a curvature was found.
+double size_at(double curvature, const SizeTargets& targets) {
+  double size = std::min(kTurnPerEdge / curvature, targets.largest());
+  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
+  // surface; edges may be up to half as long again as wanted.
+  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
+  return std::max(size, least_size(curvature, targets));
+}
+
 /// Each edge once; those on the boundary, whose other half is kNone, have one only.
 inline bool is_first_half(const HalfEdgeMesh& c, Index h) { return h < c.twin(h) && c.has_triangle(h / 3); }
 
@@ -84,12 +93,8 @@ class GrowthLimit {
 
 }  // namespace
 
-double wanted_size(double curvature, const SizeTargets& targets) {
-  double size = std::min(kTurnPerEdge / curvature, targets.largest());
-  // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
-  // surface; edges may be up to half as long again as wanted.
-  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
-  return std::max(size, least_size(curvature, targets));
+double wanted_size(const Curvatures& curvatures, const SizeTargets& targets) {
+  return size_at(curvature_that_counts(curvatures, targets), targets);
 }
 
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets) {
@@ -100,7 +105,7 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
       const Curvatures curvatures = principal_curvatures(field.jet(mesh.at[v]));
       mesh.curvature[v] = static_cast<float>(curvature_that_counts(curvatures, targets));
     }
-    mesh.size[v] = mesh.refinement[v] * static_cast<float>(wanted_size(double(mesh.curvature[v]), targets));
+    mesh.size[v] = mesh.refinement[v] * static_cast<float>(size_at(double(mesh.curvature[v]), targets));
   }
   for (Index h = 0; h < c.half_edges(); ++h) {
     if (!is_first_half(c, h)) continue;

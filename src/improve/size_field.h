@@ -35,9 +35,10 @@ inline constexpr double kLeastSize = 0.01;
 /// places, and they are small.
 inline constexpr double kLeastSizeOfAll = 1e-6;
 
-/// The wanted edge (A) at a place by its curvature (1/A) alone: it turns the normal by no more than kTurnPerEdge, a
-/// triangle of that edge stays within the tolerance, and it is no longer than targets.largest().
-double wanted_size(double curvature, const SizeTargets& targets);
+/// The wanted edge (A) at a place by its curvatures (1/A) alone: it turns the normal by no more than kTurnPerEdge, a
+/// triangle of that edge stays within the tolerance, and it is no longer than targets.largest(). Lower limits are as
+/// above.
+double wanted_size(const Curvatures& curvatures, const SizeTargets& targets);
 
 /// Wanted edges (A) at the block's active vertices: wanted_size(), and growing by no more than kGrowth per A from where
 /// it is less. Sizes of vertices outside the block are taken as they are.

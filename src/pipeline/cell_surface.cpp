@@ -14,7 +14,7 @@ constexpr float kCommonAxis = 0.1f;
 void CellSurface::add_disc(std::span<const Link> sides) {
   for (const Link& side : sides) {
     const int from = local(side.from), to = local(side.to);
-    join(from, to);
+    pieces_.unite(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
     links_.push_back({from, to});
   }
   discs_.push_back(local(sides[0].from));
@@ -56,14 +56,9 @@ int CellSurface::local(std::uint32_t vertex) {
   const auto [it, is_new] = index_.try_emplace(vertex, static_cast<int>(vertices_.size()));
   if (is_new) {
     vertices_.push_back(vertex);
-    parent_.push_back(it->second);
+    pieces_.add();
   }
   return it->second;
-}
-
-int CellSurface::find(int v) {
-  while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-  return v;
 }
 
 void CellSurface::find_boundary() {

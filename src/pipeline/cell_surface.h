@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "patch/fold_triangulator.h"
 #include "pipeline/traced_vertices.h"
 
@@ -30,8 +31,7 @@ class CellSurface {
 
  private:
   int local(std::uint32_t vertex);
-  int find(int v);
-  void join(int u, int v) { parent_[find(u)] = find(v); }
+  int find(int v) { return static_cast<int>(pieces_.find(static_cast<std::uint32_t>(v))); }
   void find_boundary();
   int count_boundary_loops(int root);
 
@@ -49,7 +49,7 @@ class CellSurface {
   const TracedVertices& points_;
   std::unordered_map<std::uint32_t, int> index_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<int> parent_;  ///< a forest: the vertices of one piece have one root
+  DisjointSets pieces_;  ///< of the vertices
   std::vector<std::pair<int, int>> links_;
   std::vector<int> discs_;       ///< a vertex of each
   std::map<int, int> boundary_;  ///< links that are on the boundary of the cell

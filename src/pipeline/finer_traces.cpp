@@ -41,7 +41,7 @@ bool FinerTraces::may_help(const LeftBad& bad, double least_size, std::size_t ve
   const auto corners = static_cast<double>(bad.corners);
   const bool is_gain =
       least_size < kFinerBy * last_least_size_ || corners < kFewerBy * static_cast<double>(last_corners_);
-  // Where many are left that are neither fewer nor finer triangles cannot be small enough.
+  // Otherwise no triangles may be small enough for this surface.
   return is_gain || (traces_ == 1 && corners <= kFew * static_cast<double>(vertices));
 }
 

@@ -16,6 +16,7 @@
 #include "improve/cell_size.h"
 #include "pipeline/check_options.h"
 #include "pipeline/critical_places.h"
+#include "pipeline/euler_numbers.h"
 #include "pipeline/finer_traces.h"
 #include "pipeline/room.h"
 #include "pipeline/trace_surface.h"
@@ -67,37 +68,6 @@ void describe_trace(const TraceResult& trace, MeshReport& report) {
   report.cells_cut_by_folds = trace.cells_cut_by_folds;
 }
 
-/// A level that was traced in place of the one asked for.
-struct TracedBeside {
-  TraceResult trace;
-  double isovalue = 0.0;
-};
-
-/// Levels beside c, nearer ones first: c (1 +- 1e-9 4^k). Tried when a mesh without certificate is allowed.
-TracedBeside trace_beside(const std::vector<Atom>& atoms, const MeshOptions& options, int threads, Stopwatch& watch) {
-  const TraceDemands demands{options.spacing, options.improve};
-  for (double change = 1e-9; change < 1e-2; change *= 4.0) {
-    for (const double sign : {-1.0, 1.0}) {
-      const double isovalue = options.isovalue * (1.0 + sign * change);
-      const GaussianField field(atoms, options.decay, isovalue);
-      try {
-        TraceResult trace =
-            trace_surface(field, demands, threads, [&](const std::string& stage) { watch.finished(stage); });
-        if (trace.uncertified.empty() && !trace.surface.mesh.triangles.empty()) return {std::move(trace), isovalue};
-      } catch (const LatticeDegenerate&) {
-        continue;  // no lattice fits this level; the next one may do
-      }
-    }
-  }
-  throw CannotMeshError("no level within a hundredth of c = " + number_text(options.isovalue, 15) +
-                        " can be certified");
-}
-
-/// V - F / 2, which is the Euler number of a closed mesh.
-std::int64_t euler_number(const TriangleMesh& mesh) {
-  return static_cast<std::int64_t>(mesh.vertices.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
-}
-
 /// Makes one mesh; each step leaves in the result what is known so far.
 class SurfaceMesher {
  public:
@@ -128,7 +98,7 @@ class SurfaceMesher {
  private:
   void mesh_as_traced() {
     require_room_as_traced(field_, options_);
-    take_mesh(trace());
+    take_mesh(trace().surface);
     result_.report.check = check_mesh(result_.mesh);
     if (options_.measure_distance) measure_distance();
   }
@@ -142,7 +112,7 @@ class SurfaceMesher {
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
       const SizeSamples samples = sample_sizes(field_, targets);
       require_room(least_triangle_count(samples), options_);
-      demands_.spacing = targets.cell = suitable_cell_size(samples, targets.spacing);
+      demands_.spacing = suitable_cell_size(samples, targets.spacing);
       improve_until_no_angle_is_small(targets);
       if (!is_good()) return;
       if (options_.measure_distance || options_.tolerance > 0.0) measure_distance();
@@ -157,39 +127,44 @@ class SurfaceMesher {
   void improve_until_no_angle_is_small(const SizeTargets& targets) {
     for (Guarding guarding = Guarding::kCloseSheets;; guarding = Guarding::kEverywhere) {
       LeftBad bad;
+      std::vector<std::int64_t> traced;
       do {
-        bad = improve(trace(), targets, guarding);
+        TraceResult trace = this->trace();
+        traced = euler_numbers(trace.surface.mesh);
+        bad = improve(std::move(trace), targets, guarding);
       } while (can_be_finer_ && finer_traces_.demand(bad, result_.mesh.vertices.size(), demands_));
       result_.report.check = check_mesh(result_.mesh);
+      has_same_topology_ = euler_numbers(result_.report.check.components) == traced;
       watch_.finished("verify");
       if (is_good() || guarding == Guarding::kEverywhere) return;
     }
   }
 
-  /// The traced surface, with the certificate in the report.
-  /// @throws CannotMeshError
-  SurfaceMesh trace() {
+  /// The traced surface, with the certificate in the report. @throws CannotMeshError
+  TraceResult trace() {
     take_mesh({});  // that of an attempt before makes room
     MeshReport& report = result_.report;
     TraceResult trace = trace_at_level();
-    report.certified = trace.uncertified.empty();
-    if (!report.certified) {
+    if (!trace.uncertified.empty()) {
       report.critical = critical_places(field_, trace.uncertified, options_.isovalue);
       if (report.critical.empty()) throw CannotMeshError(coarse_message(trace.uncertified));
       if (!options_.allow_uncertified) {
         throw CannotMeshError(critical_message(report.critical, options_.isovalue, trace.uncertified.front().size));
       }
-      TracedBeside beside = trace_beside(atoms_, options_, threads_, watch_);
-      trace = std::move(beside.trace);
-      report.isovalue_used = beside.isovalue;
+      trace = trace_beside();
     }
+    report.certified = report.isovalue_used == options_.isovalue;
     give_back_memory();  // cells, roots and curves, most of what there is up to here
     describe_trace(trace, report);
     if (trace.surface.mesh.triangles.empty()) {
       throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue, 15) +
                             " everywhere; choose a smaller c");
     }
-    return std::move(trace.surface);
+    return trace;
+  }
+
+  TraceResult trace_with(const TraceDemands& demands) {
+    return trace_surface(field_, demands, threads_, [&](const std::string& stage) { watch_.finished(stage); });
   }
 
   /// By the first of the demands that leads to a certified surface. @throws CannotMeshError
@@ -198,8 +173,7 @@ class SurfaceMesher {
     std::string degenerate;
     for (const TraceDemands& demands : demands_in_turn()) {
       try {
-        TraceResult trace =
-            trace_surface(field_, demands, threads_, [&](const std::string& stage) { watch_.finished(stage); });
+        TraceResult trace = trace_with(demands);
         if (trace.uncertified.empty()) {
           demands_ = demands;
           return trace;
@@ -207,11 +181,32 @@ class SurfaceMesher {
         uncertified = std::move(trace);
       } catch (const LatticeDegenerate& error) {
         degenerate = error.what();
+      } catch (const std::exception&) {  // such as too many cells: there was a mesh without those
+        if (demands.fine_places.empty()) throw;
       }
       if (!demands.fine_places.empty()) can_be_finer_ = false;
     }
     if (uncertified) return std::move(*uncertified);
     throw CannotMeshError(degenerate + "; another spacing may help");
+  }
+
+  /// At the nearest level beside c that can be certified, c (1 +- 1e-9 4^k), which from now on is the field's.
+  /// @throws CannotMeshError
+  TraceResult trace_beside() {
+    for (double change = 1e-9; change < 1e-2; change *= 4.0) {
+      for (const double sign : {-1.0, 1.0}) {
+        result_.report.isovalue_used = options_.isovalue * (1.0 + sign * change);
+        field_ = GaussianField(atoms_, options_.decay, result_.report.isovalue_used);
+        try {
+          TraceResult trace = trace_with(demands_);
+          if (trace.uncertified.empty() && !trace.surface.mesh.triangles.empty()) return trace;
+        } catch (const LatticeDegenerate&) {
+          continue;  // no lattice fits this level; the next one may do
+        }
+      }
+    }
+    throw CannotMeshError("no level within a hundredth of c = " + number_text(options_.isovalue, 15) +
+                          " can be certified");
   }
 
   /// What is demanded, and then less: the lattice of smaller cells may be degenerate where that of the others is not.
@@ -233,19 +228,21 @@ class SurfaceMesher {
   }
 
   /// Improves a traced mesh. @return what is left bad
-  LeftBad improve(SurfaceMesh traced, const SizeTargets& targets, Guarding guarding) {
-    const std::int64_t chi = euler_number(traced.mesh);
+  LeftBad improve(TraceResult trace, SizeTargets targets, Guarding guarding) {
     const ManyBad many_bad = can_be_finer_ && demands_.fine_places.empty() ? ManyBad::kLeave : ManyBad::kMend;
-    const GaussianField used(atoms_, options_.decay, result_.report.isovalue_used);
+    targets.cell = trace.cell_size;
     ImprovedSurface improved =
-        improve_surface(std::move(traced), used, targets, guarding, many_bad, threads_, options_.on_improving);
-    has_same_topology_ = euler_number(improved.surface.mesh) == chi;
+        improve_surface(std::move(trace.surface), field_, targets, guarding, many_bad, threads_, options_.on_improving);
     take_mesh(std::move(improved.surface));
     watch_.finished("improve");
     return std::move(improved.left);
   }
 
+  /// @throws CannotMeshError if the judge cannot number its triangles
   void take_mesh(SurfaceMesh surface) {
+    if (surface.mesh.triangles.size() > kMostParts) {
+      throw CannotMeshError("more than 2^31 triangles; choose a larger spacing");
+    }
     result_.mesh = std::move(surface.mesh);
     result_.normals = std::move(surface.normals);
   }
@@ -283,11 +280,11 @@ class SurfaceMesher {
   const int threads_;
   MeshResult result_;
   Stopwatch watch_;
-  const GaussianField field_;
+  GaussianField field_;  ///< at c, or at a level beside it
   TraceDemands demands_;
   FinerTraces finer_traces_;
-  bool can_be_finer_ = true;  ///< no finer trace has failed
-  bool has_same_topology_ = true;
+  bool can_be_finer_ = true;       ///< no finer trace has failed
+  bool has_same_topology_ = true;  ///< as the traced surface
 };
 
 }  // namespace

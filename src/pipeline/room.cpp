@@ -2,8 +2,8 @@
 
 #include "core/number_text.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/triangle_mesh.h"
 #include "improve/cell_size.h"
-#include "trace/face_tracer.h"
 
 namespace gaussmesh {
 namespace {
@@ -11,8 +11,7 @@ namespace {
 /// Less than large meshes of proteins take at the peak.
 constexpr double kBytesPerTriangle = 100.0, kBytesPerTriangleAsTraced = 60.0;
 
-/// There are two of them to a vertex.
-constexpr double kMostTriangles = 2.0 * double(kLocalVertex);
+constexpr auto kMostTriangles = static_cast<double>(kMostParts);
 
 double bytes_for(double triangles, const MeshOptions& options) {
   return triangles * (options.improve ? kBytesPerTriangle : kBytesPerTriangleAsTraced);

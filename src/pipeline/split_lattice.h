@@ -89,7 +89,7 @@ class SplitLattice {
  private:
   /// Of an edge along `axis`, or of a face across it. Small: with default settings there are as many as triangles.
   struct LatticeKey {
-    std::array<std::int32_t, 3> cell{};   ///< of level 0 that has the lowest corner
+    std::array<std::int32_t, 3> cell{};   ///< of level 0 that has the lowest corner: see kMostCellNumber
     std::array<std::uint16_t, 3> part{};  ///< the corner in it, in fine planes
     static_assert(kMaxLevel <= 16);
     std::int8_t axis = 0;

@@ -24,9 +24,14 @@ constexpr int kMaxRounds = 1000;
 /// Offsets of the lattice, as fractions of a cell: the first that gives no degenerate place is used.
 constexpr Vec3 kOffsets[] = {{0.37193, 0.41421, 0.23607}, {0.61803, 0.14159, 0.71828}, {0.05572, 0.87298, 0.58258}};
 
-Lattice make_lattice(double spacing, const Vec3& fractions) {
+/// The lattice of cells of about the asked-for size, or larger ones far from the origin: see kMostCellNumber.
+Lattice make_lattice(const Box& bounds, double cell, const Vec3& fractions) {
+  double farthest = 0.0;
+  for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::abs(bounds.lo[k]), std::abs(bounds.hi[k])});
+  const auto steps = [](double size) { return size * kUnitsPerAngstrom / double(kFinePerCell); };
+  const auto least_step = static_cast<Coord>(std::ceil(steps(farthest / kMostCellNumber)));
   Lattice lattice;
-  lattice.step = std::max<Coord>(2, std::llround(spacing * kUnitsPerAngstrom / double(kFinePerCell)));
+  lattice.step = std::max({Coord{2}, least_step, Coord{std::llround(steps(cell))}});
   for (int k = 0; k < 3; ++k) lattice.offset[k] = std::llround(fractions[k] * double(lattice.step * kFinePerCell));
   return lattice;
 }
@@ -109,7 +114,7 @@ bool is_near_critical(const GaussianField& field, const Vec3& place) {
 TraceResult trace_surface(const GaussianField& field, const TraceDemands& demands, int threads,
                           const StageClock& finished) {
   const auto trace_with = [&](const Vec3& offset) {
-    return trace_on(field, make_lattice(demands.spacing, offset), demands, threads, finished);
+    return trace_on(field, make_lattice(field.bounding_box(), demands.spacing, offset), demands, threads, finished);
   };
   for (const Vec3& offset : std::span(kOffsets).first(std::size(kOffsets) - 1)) {
     try {

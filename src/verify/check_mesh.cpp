@@ -23,8 +23,6 @@ using namespace verify;
 
 namespace {
 
-constexpr std::size_t kMostParts = std::size_t{1} << 31;  // triangles or vertices: 32-bit numbers, with room
-
 void require_countable(std::size_t count, const char* what) {
   if (count > kMostParts)
     throw OptionError("mesh: expected at most " + std::to_string(kMostParts) + " " + what + ", got '" +
