@@ -41,6 +41,19 @@ struct Found {
   std::size_t line = 0;
 };
 
+/// Throws the error for a file without tags that begin with `prefix`. Crystallographic CIF has others that look like them.
+[[noreturn]] void fail_without(const cif::Document& document, const std::string& prefix, const std::string& file) {
+  const std::string expected = "expected a loop " + loop_of(prefix) + " of mmCIF, tags " + prefix + "*, got ";
+  const std::string other = loop_of(prefix) + "_";
+  for (const cif::Block& block : document.blocks) {
+    const auto line = find_line(block, other);
+    if (!line) continue;
+    throw InputError(file + ":" + std::to_string(*line) + ": " + expected + other +
+                     "* of crystallographic CIF; have another program write it as PDB or mmCIF");
+  }
+  throw InputError(file + ": " + expected + "none");
+}
+
 /// The block whose tags begin with `prefix`.
 ///
 /// @throws InputError if there is none, or more than one, as in files that were joined
@@ -56,7 +69,7 @@ Found find_block(cif::Document& document, const std::string& prefix, const std::
     }
     found = {&block, *line};
   }
-  if (found.block == nullptr) throw InputError(file + ": expected a loop " + loop_of(prefix) + ", got none");
+  if (found.block == nullptr) fail_without(document, prefix, file);
   return found;
 }
 

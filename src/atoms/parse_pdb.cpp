@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -73,7 +74,9 @@ std::array<double, 3> coordinates(std::string_view record, const LinePlace& plac
     if (!value || !has_point || is_cut_before || is_cut_behind) {
       fail_at(place, "a coordinate (A) in columns " + std::to_string(begin + 1) + "-" + std::to_string(end),
               is_cut_before ? columns(record, begin, end) : field,
-              value && !has_point ? "; write it with a decimal point" : "");
+              is_cut_behind         ? "; it goes on behind them"
+              : value && !has_point ? "; write it with a decimal point"
+                                    : "");
     }
     values[i] = *value;
   }
@@ -92,10 +95,37 @@ RecordKind kind_of(std::string_view line, const LinePlace& place) {
   return kind;
 }
 
-/// Columns 77-78, or where they are blank, or have the line numbers of old files, what the name says.
+/// Whether columns 73-80 are those of files before 1997: the entry, of a digit and three more, a letter if the line was
+/// revised, and its number. That letter is no element.
+bool has_line_number(std::string_view record) {
+  const std::string_view entry = columns(record, 73, 76), number = columns(record, 78, 80);
+  return entry.size() == 4 && is_digit(entry[0]) && record.size() >= 80 && is_digit(record[79]) &&
+         std::all_of(number.begin(), number.end(), is_digit);
+}
+
+/// The type of an atom in a record of PDBQT, which has its charge in columns 71-76 and the type in 78-79; empty in
+/// others. https://autodock.scripps.edu/wp-content/uploads/sites/56/2021/10/AutoDock4.2.6_UserGuide.pdf
+std::string_view autodock_type(std::string_view record) {
+  const std::string_view charge = columns(record, 71, 76);
+  const bool is_charge = charge.find('.') != std::string_view::npos && parse_number(charge).has_value();
+  return is_charge && columns(record, 77, 77).empty() && columns(record, 80, 80).empty() ? columns(record, 78, 79)
+                                                                                         : std::string_view{};
+}
+
+/// The element of a type of AutoDock: a letter behind C, H, N, O or S tells donors, acceptors and carbons of rings.
+std::string element_of_type(std::string_view type) {
+  constexpr std::string_view kTypes[] = {"HD", "HS", "NA", "NS", "OA", "OS", "SA"};
+  if (type == "A") return "C";
+  const bool is_marked = std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+  return std::string(type.substr(0, is_marked ? 1 : 2));
+}
+
+/// Columns 77-78, or where there is no element, what the name says.
 std::string element(std::string_view record) {
+  const std::string_view type = autodock_type(record);
+  if (!type.empty() && is_letter(type[0])) return element_of_type(type);
   const std::string_view written = columns(record, 77, 78);
-  if (!written.empty() && is_letter(written[0])) return std::string(written);
+  if (!written.empty() && is_letter(written[0]) && !has_line_number(record)) return std::string(written);
   return record.size() < 16 ? std::string{} : element_of_name(record.substr(12, 4), columns(record, 18, 20));
 }
 

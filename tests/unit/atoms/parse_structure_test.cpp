@@ -150,6 +150,33 @@ TEST_CASE("elements are in columns 77-78, or in the name") {
   CHECK(parse_pdb(line.substr(0, 66), "a.pdb", "bondi").atoms[0].radius == 1.20);
 }
 
+TEST_CASE("line numbers of old files are no elements") {
+  const std::string line = pdb_line({"CA", "ASN", "103", {}}).substr(0, 66) + "      ";
+  CHECK(parse_pdb(line + "7LYZN  9", "a.pdb", "bondi").atoms[0].radius == 1.70);
+  CHECK(parse_pdb(line + "7LYZG 10", "a.pdb", "bondi").atoms[0].radius == 1.70);
+  CHECK(parse_pdb(line + "7LYZO123", "a.pdb", "bondi").atoms[0].radius == 1.70);
+  CHECK(parse_pdb(line + "7LYZ 123", "a.pdb", "bondi").atoms[0].radius == 1.70);
+  CHECK(parse_pdb(line + "7LYZN   ", "a.pdb", "bondi").atoms[0].radius == 1.55);  // a segment, and the element
+  CHECK(parse_pdb(line + "7LYZ N1-", "a.pdb", "bondi").atoms[0].radius == 1.55);
+  CHECK(parse_pdb(line + "PROAN  9", "a.pdb", "bondi").atoms[0].radius == 1.55);
+}
+
+TEST_CASE("PDBQT has its types of atoms in columns 78-79") {
+  const std::string line = pdb_line({"C1", "LIG", "1", {}}).substr(0, 66) + "    -0.085 ";
+  CHECK(parse_pdb(line + "A ", "a.pdb", "bondi").atoms[0].radius == 1.70);
+  CHECK(parse_pdb(line + "Cl", "a.pdb", "bondi").atoms[0].radius == 1.75);
+  CHECK(parse_pdb(line + "NA", "a.pdb", "bondi").atoms[0].radius == 1.55);
+  CHECK(parse_pdb(line + "OA", "a.pdb", "bondi").atoms[0].radius == 1.52);
+  CHECK(parse_pdb(line + "HD", "a.pdb", "bondi").atoms[0].radius == 1.20);
+  CHECK(parse_pdb(line + "S", "a.pdb", "bondi").atoms[0].radius == 1.80);
+}
+
+TEST_CASE("a crystallographic CIF is told from mmCIF") {
+  const std::string text = "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.5\n";
+  CHECK_THROWS_WITH(parse_mmcif(text, "a.cif", "bondi"),
+                    ContainsSubstring("a.cif:2: ") && ContainsSubstring("got _atom_site_* of cryst"));
+}
+
 TEST_CASE("elements are known from names, or not at all") {
   struct Case {
     const char* name;  // columns 13-16
