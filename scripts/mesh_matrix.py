@@ -17,7 +17,7 @@ mesh. Without --judge only the program's own report is in the table.
 The reference topology (--topology) is a tab-separated table with columns molecule, d, c, components, chi. Beyond it,
 all spacings of one molecule and level must give the same components and Euler number.
 
-Exit code 0: every row is ok. 1: some row is not. 2: wrong use.
+Exit code 0: every row is ok. 1: some row is not, or the table could not be written. 2: wrong use.
 """
 
 import argparse
@@ -32,6 +32,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 # Counts of the judge that must be zero.
 DEFECTS = ["nontri", "nm_edges", "boundary_edges", "bad_orient_edges", "nm_vertices", "isolated", "dup_vertices",
@@ -41,6 +42,10 @@ COLUMNS = ["molecule", "atoms", "d", "c", "spacing", "cells", "triangles", "seco
            "normals_against_gradient", "min_angle_deg", "mean_ratio", "under_30_deg", "verdict", "reason"]
 KEY = ["molecule", "d", "c", "spacing"]
 EXIT_CANNOT_MESH = 4
+
+
+class WrongUse(Exception):
+    """What is asked for makes no sense."""
 
 
 def number(text):
@@ -208,12 +213,21 @@ def compare_spacings(rows):
                     row["reason"] = "; ".join(filter(None, [row["reason"], note]))
 
 
+def read_table(path, columns):
+    """The rows of a tab-separated table that has these columns."""
+    with open(path, encoding="utf-8", newline="") as file:
+        reader = csv.DictReader(file, delimiter="\t")
+        missing = [column for column in columns if column not in (reader.fieldnames or [])]
+        if missing:
+            raise WrongUse(f"{path}: expected a table with the columns {', '.join(columns)}; {missing[0]} is missing")
+        return list(reader)
+
+
 def read_reference(path):
     if path is None:
         return {}
-    with open(path, encoding="utf-8", newline="") as file:
-        return {(r["molecule"], number(r["d"]), number(r["c"])): (r["components"], r["chi"])
-                for r in csv.DictReader(file, delimiter="\t") if r.get("agree", "yes") == "yes"}
+    return {(r["molecule"], number(r["d"]), number(r["c"])): (r["components"], r["chi"])
+            for r in read_table(path, ["molecule", "d", "c", "components", "chi"]) if r.get("agree", "yes") == "yes"}
 
 
 def write_table(path, rows):
@@ -247,7 +261,14 @@ def parse_options():
     parser.add_argument("--resume", action="store_true", help="keep the rows that the table already has")
     parser.add_argument("--keep", type=pathlib.Path, help="folder to keep the meshes in")
     parser.add_argument("--scratch", help="folder for temporary files")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.jobs < 1 or options.threads < 0 or not options.timeout > 0:
+        parser.error("--jobs: expected 1 or more, --threads: 0 or more, --timeout: more than 0")
+    for option in ["program", "judge"]:
+        program = getattr(options, option)
+        if program and not shutil.which(program):
+            parser.error(f"--{option}: expected a program to run, got '{program}'")
+    return options
 
 
 def find_molecules(options):
@@ -256,20 +277,15 @@ def find_molecules(options):
         files += sorted([*path.glob("*.pqr"), *path.glob("*.pqr.gz")]) if path.is_dir() else [path]
     for path in files:
         if not path.is_file():
-            sys.exit(f"mesh_matrix.py: {path}: expected a file or a folder")
+            raise WrongUse(f"expected a file or a folder, got '{path}'")
+    if not files:
+        raise WrongUse("expected molecules, got none")
     sized = sorted((count_atoms(path), path) for path in files)
     return [path for atoms, path in sized if options.max_atoms is None or atoms <= options.max_atoms]
 
 
-def main():
-    options = parse_options()
-    reference = read_reference(options.topology)
-    if options.keep:
-        options.keep.mkdir(parents=True, exist_ok=True)
-    rows = []
-    if options.resume and options.output.is_file():
-        with open(options.output, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file, delimiter="\t"))
+def plan_runs(options, rows):
+    """What is to be run beyond the rows that there are."""
     done = {tuple(row[k] for k in KEY) for row in rows}
     plan = []
     for path in find_molecules(options):
@@ -278,6 +294,24 @@ def main():
                 run = {"molecule": molecule_name(path), "d": decay, "c": isovalue, "spacing": spacing}
                 if tuple(run[k] for k in KEY) not in done:
                     plan.append((path, run))
+    return plan
+
+
+def prepare(options):
+    """The reference, the rows that the table keeps, and the runs to come. What is wrong is told before they begin."""
+    rows = []
+    if options.resume and options.output.is_file():
+        rows = read_table(options.output, COLUMNS)
+    reference, plan = read_reference(options.topology), plan_runs(options, rows)
+    if options.keep:
+        options.keep.mkdir(parents=True, exist_ok=True)
+    tempfile.TemporaryDirectory(dir=options.scratch).cleanup()
+    write_table(options.output, rows)
+    return reference, rows, plan
+
+
+def make_table(options, reference, rows, plan):
+    """Runs all, and writes the table anew after each; returns how many rows are not ok."""
     with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
         futures = [pool.submit(run_one, options, reference, path, run) for path, run in plan]
         for future in concurrent.futures.as_completed(futures):
@@ -291,7 +325,21 @@ def main():
     write_table(options.output, rows)
     bad = sum(row["verdict"] != "ok" for row in rows)
     print(f"{len(rows) - bad} ok, {bad} FAIL; table in {options.output}")
-    return 1 if bad else 0
+    return bad
+
+
+def main():
+    options = parse_options()
+    try:
+        prepared = prepare(options)
+    except (WrongUse, OSError, EOFError, zlib.error, ValueError) as error:
+        print(f"mesh_matrix.py: {error}", file=sys.stderr)
+        return 2
+    try:
+        return 1 if make_table(options, *prepared) else 0
+    except OSError as error:
+        print(f"mesh_matrix.py: {error}", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

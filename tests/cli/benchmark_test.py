@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The script that measures whole runs: its table, its plot, and what it does where a program fails.
+"""The scripts that measure whole runs: their tables, a plot, and what they do where a program fails.
 
     tests/cli/benchmark_test.py --program build/bin/gaussmesh --data data [CLASS...]
 """
@@ -70,6 +70,44 @@ class Benchmark(CliTest):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, r"bad.pqr.*exit 3: .*bad.pqr:1: ")
         self.assertEqual(self.measure("none.pqr").returncode, 2)
+
+
+class Matrix(CliTest):
+    def matrix(self, *arguments):
+        command = [sys.executable, settings.data.parent / "scripts" / "mesh_matrix.py", "--program", settings.program,
+                   *arguments]
+        return subprocess.run(list(map(str, command)), cwd=self.folder, capture_output=True, text=True, timeout=200,
+                              check=False)
+
+    def test_a_row_for_each_run(self):
+        arguments = [self.molecule("methanol"), "--levels", "0.6,1.7", "--spacings", 1, 2, "--topology",
+                     settings.data / "reference_topology.tsv"]
+        result = self.matrix(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = list(csv.DictReader((self.folder / "matrix.tsv").read_text().splitlines(), delimiter="\t"))
+        self.assertEqual([(row["spacing"], row["components"], row["chi"], row["verdict"]) for row in rows],
+                         [("1", "1", "2", "ok"), ("2", "1", "2", "ok")])
+        self.assertEqual(self.matrix(*arguments, "--resume").stdout, "2 ok, 0 FAIL; table in matrix.tsv\n")
+        self.assertEqual(self.matrix(self.molecule("methanol"), "--levels", "0.6,1e8").returncode, 1)
+
+    def test_wrong_use_is_told_before_anything_is_run(self):
+        self.write("cut.pqr.gz", b"\x1f\x8b")
+        (self.folder / "empty").mkdir()
+        good = self.molecule("methanol")
+        for arguments, said in [(["none.pqr"], "expected a file or a folder, got 'none.pqr'"),
+                                (["empty"], "expected molecules, got none"),
+                                (["cut.pqr.gz"], "mesh_matrix.py: "),
+                                ([good, "--program", "/none"], "--program: expected a program to run, got '/none'"),
+                                ([good, "--judge", "/none"], "--judge: expected a program to run, got '/none'"),
+                                ([good, "--topology", good], "expected a table with the columns molecule, "),
+                                ([good, "--topology", "none"], "'none'"),
+                                ([good, "--output", "empty"], "'empty'"),
+                                ([good, "--jobs", 0], "--jobs: expected 1 or more")]:
+            result = self.matrix(*arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(said, result.stderr)
+            self.assertNotIn("Traceback", result.stderr)
+        self.assertEqual(self.files(), ["cut.pqr.gz", "empty"])
 
 
 if __name__ == "__main__":
