@@ -1,24 +1,28 @@
 #!/usr/bin/env python3
+# Built and installed as gaussmesh-batch, beside gaussmesh.
 """Meshes many molecules: folders or a list of PQR, XYZR, PDB or mmCIF files, plain or gzipped.
 
-    scripts/mesh_batch.py molecules/ --output meshes --program build/release/bin/gaussmesh --jobs 2 -- --preset ses-area
+    %(prog)s molecules/ --output meshes --jobs 2 -- --preset ses-area
 
-Each molecule becomes meshes/NAME.off and meshes/NAME.json, its report; both appear together or not at all. Options
+Each molecule becomes meshes/NAME.off and meshes/NAME.json, its report; they appear when both are whole. Options
 behind `--` go to gaussmesh as they are. PDB and mmCIF files go through pdb2pqr, which adds hydrogens and radii
 (--force-field), or get radii by name (--radii), from a file (--radii-file), or both. A molecule that fails does not
 stop the others.
 
-A second run makes only what is missing, older than its molecule or the file of radii, or was made with other options;
---again makes all anew. After Ctrl-C no further molecule is begun. At the end, meshes/table.csv has a row for each
-molecule that there is a mesh of, and meshes/failures.tsv each that failed, with its reason.
+A mesh that is there is kept, and said to be, if it was made from the same: what is in the molecule's file and in those
+that options name (--radii-file, --config), the options, and the version of gaussmesh; and if its files have the sizes
+they were written with. Times of files do not count. --again makes all anew. After Ctrl-C no further molecule is begun.
+At the end, meshes/table.csv has a row for each molecule that there is a mesh of, and meshes/failures.tsv each that
+failed, with its reason.
 
-Exit code 0: all molecules have meshes. 1: some have not. 2: wrong use.
+Exit code 0: all molecules have meshes. 1: some have not, or there is no table of them. 2: wrong use.
 """
 
 import argparse
 import concurrent.futures
 import csv
 import gzip
+import hashlib
 import json
 import pathlib
 import re
@@ -39,6 +43,10 @@ COLUMNS = ["molecule", "atoms", "triangles", "vertices", "area_A2", "volume_A3",
 
 class WrongUse(Exception):
     """What is asked for makes no sense."""
+
+
+class Failed(Exception):
+    """Why a molecule has no mesh."""
 
 
 def unpacked(path):
@@ -76,15 +84,29 @@ def needs_pdb2pqr(path, options):
 
 
 def require_programs(molecules, options):
-    """What is missing is told once, and not for each molecule."""
+    """What is missing is told once, and not for each molecule; returns the version of gaussmesh."""
     wanted = {options.program}
     if any(needs_pdb2pqr(path, options) for path in molecules.values()):
         wanted.add(options.pdb2pqr)
     for program in sorted(wanted):
         if not shutil.which(program):
             raise WrongUse(f"expected a program to run, got '{program}'; --program and --pdb2pqr tell where they are")
-    if options.radii_file and not options.radii_file.is_file():
-        raise WrongUse(f"--radii-file: expected a file, got '{options.radii_file}'")
+    try:
+        return run([options.program, "--version"], options).strip()
+    except Failed as error:
+        raise WrongUse(f"--program: expected gaussmesh, got '{options.program}': {error}") from None
+
+
+def require_files(options):
+    """What cannot be read or written is found out before the work begins."""
+    for option, path in [("--radii-file", options.radii_file), *(("--config", path) for path in options.configs)]:
+        if path and not path.is_file():
+            raise WrongUse(f"{option}: expected a file, got '{path}'")
+    options.output.mkdir(parents=True, exist_ok=True)
+    folder_to_work_in(options).cleanup()
+    for table in tables_of(options):
+        if table.exists():
+            open(table, "r+", encoding="utf-8").close()
 
 
 def reason_in(lines):
@@ -97,80 +119,102 @@ def reason_in(lines):
 
 
 def run(command, options):
-    """Runs a program; returns why it failed, or nothing."""
+    """Runs a program; returns what it said."""
+    name = pathlib.Path(command[0]).name
     try:
-        result = subprocess.run(list(map(str, command)), capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                                timeout=options.timeout, check=False)
+        result = subprocess.run(list(map(str, command)), capture_output=True, text=True, errors="replace",
+                                stdin=subprocess.DEVNULL, timeout=options.timeout, check=False)
     except subprocess.TimeoutExpired:
-        return f"{pathlib.Path(command[0]).name}: more than {options.timeout:g} s"
-    except OSError as error:
-        return str(error)
+        raise Failed(f"{name}: more than {options.timeout:g} s") from None
     if result.returncode == 0:
-        return ""
+        return result.stdout
     lines = (result.stderr.strip() or result.stdout.strip() or "no message").splitlines()
-    said = reason_in(lines).removeprefix("gaussmesh: ")
-    return f"{pathlib.Path(command[0]).name}: exit {result.returncode}: {said}"
+    raise Failed(f"{name}: exit {result.returncode}: {reason_in(lines).removeprefix('gaussmesh: ')}")
 
 
-def meshes_of(name, options):
-    """The files that tell whether a molecule has its mesh; of separate surfaces, the first one."""
-    stem = f"{name}_1" if "separate" in options.rest or "--cavities=separate" in options.rest else name
-    pair, packed = {".vert", ".face"}, ".gz" if options.extension.endswith(".gz") else ""
-    extension = options.extension.removesuffix(packed)
-    return [options.output / f"{stem}{end}{packed}" for end in (pair if extension in pair else {extension})]
+def hash_of(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
 
 
-def is_done(path, meshes, report, stamp, options):
-    """Whether the mesh is there, newer than what it was made from, and made with the same options."""
-    sources = [path, *([options.radii_file] if options.radii_file else [])]
+def origin_of(path, options):
+    """All that decides what the mesh of a molecule is, as far as it is known before there is one."""
+    files = [path, *filter(None, [options.radii_file]), *options.configs]
+    return {"version": options.version, "format": kind(path), "files": [hash_of(file) for file in files],
+            "options": [options.extension, options.radii, str(options.radii_file or ""), options.force_field,
+                        options.rest]}
+
+
+def write_stamp(stamp, origin, report, files):
+    """What a later run needs to know whether the mesh may be kept."""
+    radii_file = json.loads(report.read_text(encoding="utf-8"))["input"]["radii_file"]  # perhaps named in --config
+    stamp.write_text(json.dumps({"origin": origin, "read": {radii_file: hash_of(radii_file)} if radii_file else {},
+                                 "written": {file.name: file.stat().st_size for file in files}}), encoding="utf-8")
+
+
+def kept_row(name, stamp, origin, options):
+    """The row of the mesh that is there, if it is as it was written and would be made from the same; else nothing."""
     try:
-        return (all(mesh.exists() for mesh in meshes) and stamp.read_text(encoding="utf-8") == stamp_of(options) and
-                report.stat().st_mtime >= max(source.stat().st_mtime for source in sources))
-    except OSError:
-        return False
-
-
-def stamp_of(options):
-    """What tells meshes apart that were made with other options."""
-    return json.dumps([options.radii, str(options.radii_file or ""), options.force_field, options.rest])
+        known = json.loads(stamp.read_text(encoding="utf-8"))
+        if (known["origin"] == origin and all(hash_of(file) == value for file, value in known["read"].items()) and
+                all((options.output / file).stat().st_size == size for file, size in known["written"].items())):
+            return row_of(name, options.output / f"{name}.json")
+    except (OSError, ValueError, LookupError, TypeError):
+        pass  # whatever is missing or not readable is made again
+    return None
 
 
 def add_radii(path, folder, options):
-    """A file that has hydrogens and radii, by pdb2pqr; returns it, and why there is none, or nothing."""
+    """A file that has hydrogens and radii, by pdb2pqr."""
     source, made = path, folder / f"{name_of(path)}.pqr"
     if unpacked(path).name != path.name:  # pdb2pqr reads nothing gzipped
         source = folder / unpacked(path)
         try:
             source.write_bytes(gzip.decompress(path.read_bytes()))
         except (OSError, EOFError, zlib.error) as error:
-            return made, f"{path}: {error}"
-    return made, run([options.pdb2pqr, "--ff", options.force_field, "--drop-water", source, made], options)
+            raise Failed(f"{path}: {error}") from None
+    run([options.pdb2pqr, "--ff", options.force_field, "--drop-water", source, made], options)
+    return made
+
+
+def folder_to_work_in(options):
+    """On the disk of the meshes, so that they can be moved to their place at once."""
+    return tempfile.TemporaryDirectory(prefix=".mesh_batch_", dir=options.output)
 
 
 def make_mesh(path, options):
-    """Makes the mesh of one molecule if it is not there; returns why it failed, or nothing."""
+    """Makes the mesh of one molecule, or keeps the one that is there; returns its row and which of the two."""
     name = name_of(path)
-    mesh, report = options.output / f"{name}{options.extension}", options.output / f"{name}.json"
-    stamp = options.output / f".{name}.options"
     if not path.is_file():
-        return "no such file"
-    if not options.again and is_done(path, meshes_of(name, options), report, stamp, options):
-        return ""
-    with tempfile.TemporaryDirectory(prefix="mesh_batch_") as folder:
-        source, radii = path, []
+        raise Failed("no such file")
+    stamp, origin = options.output / f".{name}.stamp", origin_of(path, options)
+    row = None if options.again else kept_row(name, stamp, origin, options)
+    if row:
+        return row, "kept"
+    with tempfile.TemporaryDirectory(prefix="mesh_batch_") as folder, folder_to_work_in(options) as new:
+        source, radii, new = path, [], pathlib.Path(new)
         if needs_pdb2pqr(path, options):
-            source, reason = add_radii(path, pathlib.Path(folder), options)
-            if reason:
-                return reason
+            source = add_radii(path, pathlib.Path(folder), options)
         elif kind(path) in NEED_RADII:
             given = {"--radii": options.radii, "--radii-file": options.radii_file}
             radii = [word for option, value in given.items() if value for word in (option, value)]
+        report = new / f"{name}.json"
+        try:
+            run([options.program, source, *radii, *options.rest, "--threads", options.threads, "--quiet",
+                 "-o", new / f"{name}{options.extension}", "--report", report], options)
+        except Failed as error:  # nobody else knows the folder
+            raise Failed(str(error).replace(str(new), str(options.output))) from None
+        files = sorted(new.iterdir())  # of a mesh there may be several, by its format and --cavities
+        if report not in files or len(files) < 2:
+            raise Failed(f"{options.program}: exit 0, but it wrote no mesh with a report")
+        try:
+            row = row_of(name, report)
+            write_stamp(new / stamp.name, origin, report, files)
+        except (ValueError, LookupError, TypeError):
+            raise Failed(f"{options.program}: exit 0, but its report is not one of gaussmesh") from None
         stamp.unlink(missing_ok=True)
-        reason = run([options.program, source, *radii, *options.rest, "--threads", options.threads, "--quiet",
-                      "-o", mesh, "--report", report], options)
-    if not reason:
-        stamp.write_text(stamp_of(options), encoding="utf-8")
-    return reason
+        for file in [*files, new / stamp.name]:
+            file.replace(options.output / file.name)
+    return row, "made"
 
 
 def row_of(name, report):
@@ -185,15 +229,30 @@ def row_of(name, report):
             "verdict": "certified" if said["certified"] else "not certified"}
 
 
-def write_tables(molecules, failures, options):
-    with open(options.output / "table.csv", "w", newline="", encoding="utf-8") as file:
+def tables_of(options):
+    return options.output / "table.csv", options.output / "failures.tsv"
+
+
+def write_tables(molecules, rows, failures, options):
+    table, reasons = tables_of(options)
+    with open(table, "w", newline="", encoding="utf-8", errors="surrogateescape") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
-        for name in molecules:
-            if name not in failures:
-                writer.writerow(row_of(name, options.output / f"{name}.json"))
+        writer.writerows(rows[name] for name in molecules if name in rows)
     lines = [f"{molecules[name]}\t{reason}\n" for name, reason in failures.items()]
-    (options.output / "failures.tsv").write_text("".join(lines), encoding="utf-8")
+    reasons.write_text("".join(lines), encoding="utf-8", errors="surrogateescape")
+
+
+def default_program():
+    """The one that this script is installed with, or that in the PATH."""
+    beside = pathlib.Path(__file__).resolve().parent / "gaussmesh"
+    return str(beside) if beside.is_file() else "gaussmesh"
+
+
+def configs_in(words):
+    """The files that --config names, as one word or two."""
+    return [pathlib.Path(following if word == "--config" else word.removeprefix("--config="))
+            for word, following in zip(words, [*words[1:], ""]) if re.match("--config(=|$)", word)]
 
 
 def parse_arguments(arguments):
@@ -205,7 +264,8 @@ def parse_arguments(arguments):
     parser.add_argument("--list", type=pathlib.Path, help="file with the path of a molecule on each line")
     parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the meshes")
     parser.add_argument("--extension", default=".off", help="of the meshes, which means their format (default: .off)")
-    parser.add_argument("--program", default="gaussmesh", help="where gaussmesh is (default: in the PATH)")
+    parser.add_argument("--program", default=default_program(),
+                        help="where gaussmesh is (default: beside this script, or in the PATH)")
     parser.add_argument("--pdb2pqr", default="pdb2pqr", help="the program of that name")
     parser.add_argument("--force-field", default="AMBER", help="for pdb2pqr (default: AMBER)")
     parser.add_argument("--radii", default="", help="bondi, amber or charmm: instead of pdb2pqr")
@@ -222,41 +282,52 @@ def parse_arguments(arguments):
         if own:
             parser.error(f"expected {own} before --, got '{word}' behind it")
     options.extension = "." + options.extension.removeprefix(".")
-    options.rest = rest
+    options.rest, options.configs = rest, configs_in(rest)
     return options
 
 
 def make_all(molecules, options):
-    """Makes all meshes; returns why molecules have none, by name. Those not begun when told to stop are among them."""
-    failures = {name: "not reached" for name in molecules}
+    """All rows, why molecules have no mesh, and how many were kept. Those not begun when told to stop have failed."""
+    failures, rows, kept = {name: "not reached" for name in molecules}, {}, 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         pending = {pool.submit(make_mesh, path, options): name for name, path in molecules.items()}
         try:
             for number, future in enumerate(concurrent.futures.as_completed(pending), start=1):
-                name, reason = pending[future], future.result()
-                failures[name] = reason
-                print(f"[{number}/{len(molecules)}] {name}: {reason or 'good'}", file=sys.stderr)
+                name = pending[future]
+                try:
+                    rows[name], said = future.result()
+                    del failures[name]
+                    kept += said == "kept"
+                except (Failed, OSError) as error:
+                    failures[name] = said = str(error)
+                print(f"[{number}/{len(molecules)}] {name}: {said}", file=sys.stderr)
         except KeyboardInterrupt:
             print("stopped; what is under way comes to its end", file=sys.stderr)
             pool.shutdown(wait=False, cancel_futures=True)
-    return {name: reason for name, reason in sorted(failures.items()) if reason}
+    return rows, dict(sorted(failures.items())), kept
 
 
 def main():
     options = parse_arguments(sys.argv[1:])
+    script = pathlib.Path(sys.argv[0]).name
     try:
         molecules = find_molecules(options)
         if not molecules:
             raise WrongUse("expected molecules, got none")
-        require_programs(molecules, options)
-        options.output.mkdir(parents=True, exist_ok=True)
+        options.version = require_programs(molecules, options)
+        require_files(options)
     except (WrongUse, OSError, UnicodeDecodeError) as error:
-        print(f"mesh_batch.py: {error}", file=sys.stderr)
+        print(f"{script}: {error}", file=sys.stderr)
         return 2
-    failures = make_all(molecules, options)
-    write_tables(molecules, failures, options)
-    print(f"{len(molecules) - len(failures)} of {len(molecules)} molecules meshed; {options.output / 'table.csv'}"
-          + (f", {options.output / 'failures.tsv'}" if failures else ""))
+    rows, failures, kept = make_all(molecules, options)
+    said = f"{len(rows)} of {len(molecules)} molecules meshed, {len(rows) - kept} now and {kept} before"
+    try:
+        write_tables(molecules, rows, failures, options)
+    except OSError as error:
+        print(f"{said}\n{script}: {error}", file=sys.stderr)
+        return 1
+    table, reasons = tables_of(options)
+    print(f"{said}; {table}" + (f", {reasons}" if failures else ""))
     return 1 if failures else 0
 
 

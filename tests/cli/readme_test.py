@@ -58,8 +58,9 @@ class Readme(CliTest):
         self.write("mol.pdb", pdb_text(self.molecule("1l2y")))
         shutil.copy(self.molecule("methanol"), self.folder / "molecules")
         shutil.copy(self.folder / "mol.pdb", self.folder / "molecules")
-        (self.folder / "scripts").symlink_to(root / "scripts")
-        path = f"{settings.program.parent}:/usr/bin:{os.environ['PATH']}"
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin" / "gaussmesh-batch").symlink_to(root / "scripts" / "mesh_batch.py")
+        path = f"{self.folder / 'bin'}:{settings.program.parent}:/usr/bin:{os.environ['PATH']}"
         for command in commands:
             result = subprocess.run(["bash", "-c", command], cwd=self.folder, env={**os.environ, "PATH": path},
                                     capture_output=True, text=True, timeout=200, check=False)
@@ -73,12 +74,10 @@ class Readme(CliTest):
 
 class Batch(CliTest):
     def batch(self, *arguments):
-        command = ["/usr/bin/python3", str(settings.data.parent / "scripts" / "mesh_batch.py"), *map(str, arguments),
-                   "--program", str(settings.program)]
-        if "--" in arguments:
-            command = command[:-2]
-            command[command.index("--"):command.index("--")] = ["--program", str(settings.program)]
-        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+        command = ["/usr/bin/python3", settings.data.parent / "scripts" / "mesh_batch.py", "--program",
+                   settings.program, *arguments]
+        return subprocess.run(list(map(str, command)), cwd=self.folder, capture_output=True, text=True, timeout=200,
+                              check=False)
 
     def test_goes_on_past_failures_and_takes_up_where_it_stopped(self):
         good = [self.molecule(name) for name in ("methanol", "dmso")]
@@ -101,13 +100,101 @@ class Batch(CliTest):
         third = [(self.folder / "out" / f"{name}.off").stat().st_mtime_ns for name in ("methanol", "dmso")]
         self.assertTrue(all(new > old for new, old in zip(third, again)), "other options, other meshes")
 
+    def said_of(self, *arguments):
+        """Whether the mesh of the one molecule, x, is said to be made or kept."""
+        result = self.batch(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return re.fullmatch(r"\[1/1\] x: (\w+)\n", result.stderr)[1]
+
+    def test_keeps_what_would_be_made_the_same(self):
+        """Contents decide, of all files that a mesh comes from, and not their times."""
+        old = 1e9
+        for folder, molecule in [("a", "methanol"), ("b", "dmso")]:
+            (self.folder / folder).mkdir()
+            shutil.copy(self.molecule(molecule), self.folder / folder / "x.pqr")
+            os.utime(self.folder / folder / "x.pqr", (old, old))
+        mesh = self.folder / "out" / "x.off"
+        self.assertEqual(self.said_of("a", "--output", "out"), "made")
+        of_a = mesh.read_bytes()
+        os.utime(self.folder / "a" / "x.pqr")
+        self.assertEqual(self.said_of("a", "--output", "out"), "kept")
+        self.assertEqual(self.said_of("b", "--output", "out"), "made")
+        self.expect(0, "b/x.pqr", "-o", self.mesh)
+        self.assertEqual(mesh.read_bytes(), self.mesh.read_bytes())
+        self.assertIn("x,10,", (self.folder / "out" / "table.csv").read_text())
+        self.assertEqual(self.said_of("a", "--output", "out", "--extension", "ply"), "made")
+        self.assertEqual(self.said_of("b", "--output", "out"), "made", "the report was that of another mesh")
+        self.assertEqual(self.said_of("a", "--output", "out"), "made")
+        for name in ("x.off", "x.json"):
+            (self.folder / "out" / name).write_text("")
+            self.assertEqual(self.said_of("a", "--output", "out"), "made", name)
+        self.assertEqual(mesh.read_bytes(), of_a)
+        self.assertEqual(self.said_of("a", "--output", "out", "--again"), "made")
+        self.write("newer", f"#!/bin/sh\n[ $1 = --version ] && echo gaussmesh 99 || exec {settings.program} \"$@\"\n")
+        (self.folder / "newer").chmod(0o755)
+        for said in ("made", "kept"):
+            self.assertEqual(self.said_of("a", "--output", "out", "--program", "./newer"), said)
+
+    def test_files_that_options_name_count(self):
+        self.write("x.pdb", pdb_text(self.molecule("1l2y")))
+        radii = "C 1.7\nN 1.55\nO {}\n"
+        config = 'raw = true\nspacing = {}\ncavities = "separate"\nradii-file = "my.radii"\n'
+        self.write("my.radii", radii.format(1.52))
+        self.write("o.toml", config.format(2))
+        for form, spacing, oxygen in [(["--config", "o.toml"], 3, 1.62), (["--config=o.toml"], 2, 1.52)]:
+            arguments = ["x.pdb", "--radii", "bondi", "--output", "out", "--", *form]
+            self.assertEqual(self.said_of(*arguments), "made")
+            self.assertEqual(self.said_of(*arguments), "kept")
+            for name, text in [("o.toml", config.format(spacing)), ("my.radii", radii.format(oxygen))]:
+                os.utime(self.write(name, text), (1e9, 1e9))
+                self.assertEqual(self.said_of(*arguments), "made", name)
+            self.assertEqual(self.said_of(*arguments), "kept")
+        missing = self.batch("x.pdb", "--radii", "bondi", "--output", "out", "--", "--config", "none.toml")
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("--config: expected a file, got 'none.toml'", missing.stderr)
+
+    def test_what_cannot_be_written_is_told(self):
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        (self.folder / "out" / "table.csv").mkdir(parents=True)
+        result = self.batch("m.pqr", "--output", "out")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertRegex(result.stderr, "^mesh_batch.py: .*'out/table.csv'\n$")
+        (self.folder / "out" / "table.csv").rmdir()
+        (self.folder / "out" / "m.off" / "x").mkdir(parents=True)
+        result = self.batch("m.pqr", "--output", "out")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex((self.folder / "out" / "failures.tsv").read_text(), "^m.pqr\t.*out/m.off'\n$")
+        self.assertEqual([p.name for p in (self.folder / "out").glob(".*")], [], "nothing is left of the attempt")
+
+    def test_a_program_that_writes_nothing_has_failed(self):
+        shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
+        for script, said in [("exit 0", "exit 0, but it wrote no mesh with a report"),
+                             ('for f in "$@"; do case $f in *.off|*.json) echo [] >$f; esac; done',
+                              "exit 0, but its report is not one of gaussmesh"),
+                             ("[ $1 = --version ] || printf 'b\\344d\\n' >&2; [ $1 = --version ]", "exit 1: b\ufffdd")]:
+            self.write("fake", f"#!/bin/sh\n{script}\n").chmod(0o755)
+            result = self.batch("m.pqr", "--output", "out", "--program", "./fake")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(said, (self.folder / "out" / "failures.tsv").read_text())
+        self.assertEqual(self.batch("m.pqr", "--output", "out", "--program", "/bin/false").returncode, 2)
+        said = self.batch("m.pqr", "--output", "out", "--extension", "none")
+        self.assertIn("out/m.none: expected a format", said.stderr)
+
+    def test_finds_the_program_beside_it(self):
+        shutil.copy(settings.data.parent / "scripts" / "mesh_batch.py", self.folder / "gaussmesh-batch")
+        (self.folder / "gaussmesh").symlink_to(settings.program)
+        result = subprocess.run(["./gaussmesh-batch", self.molecule("methanol"), "--output", "out"], cwd=self.folder,
+                                env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=200, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, "^1 of 1 molecules meshed, 1 now and 0 before; ")
 
     def test_several_files_for_a_molecule(self):
         """What is missing is made again: one of two files, the first of separate surfaces."""
         shutil.copy(self.molecule("methanol"), self.folder / "m.pqr")
         for options, files in [(["--extension", ".vert"], ["m.vert", "m.face"]),
                                (["--extension", "face.gz"], ["m.vert.gz", "m.face.gz"]),
-                               (["--", "--cavities", "separate"], ["m_1.off"])]:
+                               (["--", "--cavities", "separate"], ["m_1.off"]),
+                               (["--extension", "ply", "--", "--format", "msms"], ["m.ply.vert", "m.ply.face"])]:
             for missing in files:
                 self.assertEqual(self.batch("m.pqr", "./m.pqr", "--output", "out", *options).returncode, 0)
                 times = {name: (self.folder / "out" / name).stat().st_mtime_ns for name in files}

@@ -31,6 +31,9 @@ endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix" --config "${CONFIG}")
 build_and_run(consumer "${SOURCE_DIR}")
+if(EXISTS "${WORK_DIR}/prefix/bin/gaussmesh")  # the batch program finds the one that it was installed with
+  run("${WORK_DIR}/prefix/bin/gaussmesh-batch" "${SOURCE_DIR}/../../data/methanol.pqr" --output "${WORK_DIR}/meshes")
+endif()
 write_block(cmake CMakeLists.txt)
 write_block(cpp main.cpp)
 build_and_run(example "${WORK_DIR}/readme" "${SOURCE_DIR}/../../data/methanol.pqr" "${WORK_DIR}/example/mesh.vtp")
