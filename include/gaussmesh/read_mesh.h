@@ -29,8 +29,9 @@ struct MeshFile {
 /// - OBJ: `v`, `vn` and `f`, the rest is passed over. Normals are kept where every corner has that of its vertex.
 /// - STL: binary and ascii. Corners at the very same place become one vertex, in the order in which they first
 ///   appear; corners that are merely near each other do not.
-/// - Gmsh: versions 2.2 and 4.1 in ASCII. Triangles of 3 nodes are kept and elements of other kinds passed over;
-///   then nodes in no triangle are left out.
+/// - Gmsh: versions 2.2 and 4.1, in ASCII and in binary with the least significant byte first. Triangles of 3 nodes are
+///   kept, points, lines and solids passed over; then nodes in no triangle are left out. Triangles of more nodes and
+///   quadrangles are refused, and a file that has elements but no triangles.
 /// - smesh: nodes and facets of one triangle each, counted from 0 or from 1.
 /// - VTP: triangles of all pieces; arrays as text, in base64 or as they are in memory, plain or by zlib, in the element
 ///   or appended. Normals, and arrays `atom` and `component` of whole numbers, are kept; vertices and lines are passed

@@ -80,9 +80,11 @@ class MeshLines {
   /// As many things of at least `bytes` as the text can hold: what it announces is believed only so far.
   std::size_t at_most(std::size_t announced, std::size_t bytes) const { return std::min(announced, size_ / bytes + 1); }
 
+  LinePlace place() const { return {name_, std::max<std::size_t>(lines_.number(), 1)}; }
+
   /// `remedy` brings its own "; ".
   [[noreturn]] void fail(std::string_view expected, std::string_view remedy = {}) const {
-    fail_at({name_, std::max<std::size_t>(lines_.number(), 1)}, expected, trim(line_), remedy);
+    fail_at(place(), expected, trim(line_), remedy);
   }
 
  private:

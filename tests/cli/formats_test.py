@@ -317,11 +317,32 @@ class Convert(FormatTest):
         for name, options in [("o.off", {}), ("o.ply", {"binary": True}), ("p.ply", {"binary": False}), ("o.obj", {}),
                               ("o.stl", {"binary": True}), ("p.stl", {"binary": False}),
                               ("o.msh", {"file_format": "gmsh22", "binary": False}),
-                              ("p.msh", {"file_format": "gmsh", "binary": False})]:
+                              ("p.msh", {"file_format": "gmsh", "binary": False}),
+                              ("q.msh", {"file_format": "gmsh22"}), ("r.msh", {"file_format": "gmsh"})]:
             with self.subTest(name):
                 mesh.write(self.folder / name, **options)
                 judged = self.expect(0, "check", name)
                 self.assertIn(f"{len(self.triangles)} triangles", judged.stdout)
+
+    def test_binary_files_of_gmsh(self):
+        for version in ["msh22", "msh41"]:
+            with self.subTest(version):
+                subprocess.run(["gmsh", "m41.msh", "-save_all", "-bin", "-format", version, "-o", "b.msh", "-save"],
+                               cwd=self.folder, capture_output=True, timeout=120, check=True)
+                self.assertIn(b" 1 8\n", (self.folder / "b.msh").read_bytes()[:32])
+                judged = self.expect(0, "check", "b.msh")
+                self.assertIn(f"{len(self.triangles)} triangles", judged.stdout)
+
+    def test_surfaces_of_gmsh_that_are_not_of_triangles_are_refused(self):
+        (self.folder / "ball.geo").write_text('SetFactory("OpenCASCADE");\nSphere(1) = {0, 0, 0, 1};\n')
+        for extra in [["-format", "msh22"], ["-format", "msh41"], ["-format", "msh22", "-bin"],
+                      ["-format", "msh41", "-bin"]]:
+            with self.subTest(extra):
+                subprocess.run(["gmsh", "-2", "-order", "2", "ball.geo", *extra, "-o", "ball.msh"], cwd=self.folder,
+                               capture_output=True, timeout=120, check=True)
+                result = self.expect(BAD_INPUT, "convert", "ball.msh", "ball.off")
+                self.assertIn("expected a triangle of 3 nodes, type 2, got a triangle of 6, type 9", result.stderr)
+                self.assertNotIn("ball.off", self.files())
 
     def test_a_mesh_with_missing_vertices_is_refused(self):
         self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")

@@ -218,18 +218,6 @@ TEST_CASE("STL in ascii, and binary that begins like it") {
   CHECK(message(binary, "b.stl").find("b.stl") == 0);
 }
 
-TEST_CASE("Gmsh files with other elements give their triangles alone") {
-  const std::string head =
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"skin\"\n$EndPhysicalNames\n"
-      "$Nodes\n4\n5 9 9 9\n10 0 0 0\n30 1 0 0\n20 0 1 0\n$EndNodes\n$Elements\n2\n";
-  const MeshFile file = parse_mesh(head + "1 15 2 0 1 5\n2 2 2 0 1 10 30 20\n$EndElements\n", "a.msh");
-  CHECK(file.mesh.vertices == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  CHECK(file.mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
-  CHECK(message(head + "1 2 2 0 1 10 30 21\n", "a.msh").find("a.msh:17: expected an element") == 0);
-  CHECK(message("$MeshFormat\n2.2 1 8\n", "a.msh").find("a.msh:2: expected version 2.2 or 4.1 in ASCII") == 0);
-  CHECK(message("$MeshFormat\n4.1 0 8\n", "a.msh").find("expected the sections") != std::string::npos);
-}
-
 TEST_CASE("smesh counted from 1, with comments") {
   const MeshFile file =
       parse_mesh("# nodes\n3 3 0 0\n1 0 0 0\n2 1 0 0 # second\n3 0 1 0\n1 0\n3 1 2 3\n0\n0\n", "a.smesh");
@@ -277,14 +265,6 @@ TEST_CASE("what has no extension that tells is known by what is in it") {
   CHECK(message("# nothing\n", "m") == "m:1: " + expected + "end of file" + remedy);
   for (const char* name : {"standard input", "a.obj", "a.stl", "a.smesh", "a.msh"})
     CHECK(message(" \n", name) == std::string(name) + ": expected a mesh, got nothing: the file is empty");
-}
-
-TEST_CASE("binary Gmsh files are told to be so") {
-  const std::string told =
-      "expected version 2.2 or 4.1 in ASCII, '2.2 0 8' or '4.1 0 8', got '4.1 1 8'; the file is "
-      "binary, save it as ASCII";
-  CHECK(message("$MeshFormat\n4.1 1 8\n\1\0\0\0\n$EndMeshFormat\n"s, "a.msh") == "a.msh:2: " + told);
-  CHECK(message("$Comments\nmine\n$EndComments\n$MeshFormat\n4.1 1 8\n\1\0"s, "a") == "a:5: " + told);
 }
 
 TEST_CASE("one file of MSMS needs the other") {
