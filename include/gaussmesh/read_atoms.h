@@ -144,9 +144,9 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// and OXT, O1P and O2P are OP1 and OP2.
 ///
 /// @throws OptionError  if there is no such set
-/// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, the set has
-///                      no radius for an atom, or there is none; on atoms behind END that are not before it; on mmCIF
-///                      and XML
+/// @throws InputError   if an atom record is not in its columns, a coordinate is no number or out of range, there is no
+///                      atom, or no radius for some: the message has them as lines for a file of radii; on atoms behind
+///                      END that are not before it; on mmCIF and XML
 AtomFile parse_pdb(std::string_view text, std::string_view name, const std::string& radii,
                    const std::filesystem::path& radii_file = {}, AtomNames names = AtomNames::kLeaveOut);
 

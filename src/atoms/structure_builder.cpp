@@ -10,15 +10,15 @@
 namespace gaussmesh {
 namespace {
 
-std::string element_text(const AtomSite& site) {
-  return site.element.empty() ? "no element in " + std::string(site.element_place) : "element '" + site.element + "'";
-}
-
 void warn_of(std::size_t count, const std::string& what, const std::string& name, AtomFile& file) {
   if (count > 0) file.warnings.push_back(name + ": left out " + counted(count, "atom", "atoms") + " " + what);
 }
 
 }  // namespace
+
+std::string name_of(const AtomSite& site) {
+  return "atom " + std::string(site.name) + " of residue " + std::string(site.residue) + " " + site.site;
+}
 
 bool StructureBuilder::is_taken(const AtomSite& site) {
   if (!has_model_) {
@@ -42,17 +42,15 @@ bool StructureBuilder::is_taken(const AtomSite& site) {
 
 void StructureBuilder::add(const AtomSite& site) {
   if (!is_taken(site)) return;
-  const std::string name =
-      "atom " + std::string(site.name) + " of residue " + std::string(site.residue) + " " + site.site;
   for (const double value : {site.x, site.y, site.z}) {
     if (!(std::abs(value) <= kLargestCoordinate)) {
-      throw InputError(site.where + ": expected coordinates within +-1e6 A, got another of " + name);
+      throw InputError(site.where + ": expected coordinates within +-1e6 A, got another of " + name_of(site));
     }
   }
   const auto radius = radii_.find(site.residue, site.name, site.element);
   if (!radius) {
-    throw InputError(site.where + ": expected an atom that the radii " + radii_.name() + " know, got " + name + ", " +
-                     element_text(site) + "; take it out, use other radii, or give it one in a PQR file");
+    missing_radii_.add(site);
+    return;
   }
   file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
   file_.lines.push_back(site.line);
@@ -65,6 +63,7 @@ void StructureBuilder::end_model(std::size_t line) {
 }
 
 AtomFile StructureBuilder::finish() {
+  missing_radii_.require_none(radii_.name());
   if (file_.atoms.empty()) {
     throw InputError(file_name_ + ": expected atoms, got none" + (waters_ > 0 ? " but of water" : ""));
   }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "atoms/missing_radii.h"
 #include "atoms/radius_file.h"
 #include "gaussmesh/read_atoms.h"
 
@@ -31,6 +32,9 @@ struct AtomSite {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
+/// `atom CA of residue GLY A 7`
+std::string name_of(const AtomSite& site);
+
 /// Takes the first model, of each residue the alternate location that comes first, and no water; counts what it
 /// leaves out.
 class StructureBuilder {
@@ -38,14 +42,15 @@ class StructureBuilder {
   StructureBuilder(std::string_view file, AtomRadii radii, AtomNames names)
       : file_name_(file), radii_(std::move(radii)), names_(names) {}
 
-  /// @throws InputError if the radii have none for the atom, or a coordinate is out of range
+  /// @throws InputError if a coordinate is out of range
   void add(const AtomSite& site);
 
   /// Ends the model of the atoms so far, in that line of the file; those added from now on are of other models. Does
   /// nothing before the first atom.
   void end_model(std::size_t line);
 
-  /// What was found, with warnings of what was left out. @throws InputError if there is no atom
+  /// What was found, with warnings of what was left out. @throws InputError if there is no atom, or the radii have none
+  /// for some
   AtomFile finish();
 
  private:
@@ -55,6 +60,7 @@ class StructureBuilder {
   AtomRadii radii_;
   AtomNames names_;
   AtomFile file_;
+  MissingRadii missing_radii_;
   bool has_model_ = false;
   std::string model_;                              // the first
   std::optional<std::size_t> model_end_line_;      // of the first

@@ -63,6 +63,11 @@ std::string error_of(const std::string& text, const std::string& radii = "bondi"
   return "no error";
 }
 
+/// What stands between the first atom without a radius and the lines for all of them.
+const std::string kMissing =
+    "; take them out, use other radii, or write a radius (A) for each '?' of these lines and give them with "
+    "--radii-file:";
+
 const NamedAtom kCarbon = {"CA", "GLY", "7", {1.5, -2.25, 3.125, 0, 0}};
 
 }  // namespace
@@ -204,8 +209,9 @@ TEST_CASE("where the element stays open there is an error, but for radii that do
   CHECK(parse_pdb(line, "a.pdb", "bondi").atoms[0].radius == 1.70);
   line.replace(17, 3, "LIG");
   CHECK(error_of(line) ==
-        "a.pdb:1: expected an atom that the radii 'bondi' know, got atom CA of residue LIG A 7, no element in columns "
-        "77-78; take it out, use other radii, or give it one in a PQR file");
+        "a.pdb:1: expected atoms that the radii 'bondi' know, got atom CA of residue LIG A 7, no element in columns "
+        "77-78" +
+            kMissing + "\nLIG CA ?  # 1 atom, first a.pdb:1");
   line.replace(17, 3, "GLY");
   line.replace(12, 4, "CA  ");
   CHECK(parse_pdb(line, "a.pdb", "amber").atoms[0].radius == 1.908);
@@ -319,8 +325,47 @@ TEST_CASE("what is no structure names the line") {
   NamedAtom iron = {"FE", "HEM", "1", {}};
   std::string heme = pdb_line(iron, ' ', "HETATM");
   heme.replace(76, 2, "FE");
-  CHECK_THAT(error_of(heme), ContainsSubstring("a.pdb:1: expected an atom that the radii 'bondi' know"));
+  CHECK_THAT(error_of(heme), ContainsSubstring("a.pdb:1: expected atoms that the radii 'bondi' know"));
   CHECK_THAT(error_of(pdb_line(iron), "amber"), ContainsSubstring("FE of residue HEM"));
+}
+
+TEST_CASE("all atoms without a radius are told at once, as lines for a file of radii") {
+  const auto line = [](const std::string& name, const std::string& residue) {
+    return pdb_line({name, residue, "9", {}}, ' ', "HETATM");
+  };
+  const std::string text = pdb_line(kCarbon) + line("C1", "LIG") + line("ZN", "ZN") + line("c1", "LIG") +
+                           line("C2", "LIG") + line("O", "HOH") + line("C#", "LIG") + line("C 3", "LIG");
+  CHECK(error_of(text, "amber") ==
+        "a.pdb:2: expected atoms that the radii 'amber' know, got atom C1 of residue LIG A 9, "
+        "element 'C', and 5 others" +
+            kMissing +
+            "\nLIG C1 ?  # 2 atoms, first a.pdb:2"
+            "\nZN ZN ?  # 1 atom, first a.pdb:3"
+            "\nLIG C2 ?  # 1 atom, first a.pdb:5"
+            "\nLIG C ?  # 2 atoms, first a.pdb:7");
+  std::string lines = error_of(text, "amber");
+  lines.erase(0, lines.find('\n'));
+  for (std::size_t at = lines.find('?'); at != std::string::npos; at = lines.find('?', at)) lines.replace(at, 1, "1.5");
+  const testing::Folder folder;
+  std::ofstream(folder / "more.radii") << lines;
+  const AtomFile file = parse_pdb(text, "a.pdb", "amber", folder / "more.radii");
+  REQUIRE(file.atoms.size() == 7);
+  for (std::size_t i = 1; i < file.atoms.size(); ++i) CHECK(file.atoms[i].radius == 1.5);
+}
+
+TEST_CASE("atoms without a radius that no file of radii can have are a comment, and many are counted") {
+  const std::string nameless = pdb_line({"", "LIG", "9", {}}, ' ', "HETATM").substr(0, 66);
+  CHECK_THAT(error_of(nameless), Catch::Matchers::EndsWith(":\n# atom '' of residue 'LIG'  # 1 atom, first a.pdb:1"));
+  std::vector<NamedAtom> atoms;
+  for (char c = 'A'; c <= 'X'; ++c) atoms.push_back({std::string("Q") + c, "LIG", "9", {}});
+  try {
+    parse_mmcif(mmcif_text(atoms), "a.cif", "amber");
+    FAIL("there are no radii");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Catch::Matchers::StartsWith("a.cif: atom 1: expected atoms that the radii 'amber' know") &&
+                                 ContainsSubstring("\nLIG QT ?  # 1 atom, first a.cif: atom 20\n# and 4 more"));
+    CHECK(std::string(error.what()).ends_with("# and 4 more"));
+  }
 }
 
 TEST_CASE("mmCIF that is none") {

@@ -64,7 +64,7 @@ TEST_CASE("a file of radii comes before a set, or stands alone") {
   CHECK_THAT(input_error_of([&] {
                read_pdb({"", "", file});
              }),
-             ContainsSubstring("a.pdb:1: expected an atom that the radii '" + path + "' know, got atom CA"));
+             ContainsSubstring("a.pdb:1: expected atoms that the radii '" + path + "' know, got atom CA"));
   CHECK_THAT(input_error_of([&] { read_pdb({"", "bondi", {}}); }), ContainsSubstring("radii 'bondi' know"));
 
   std::ofstream(file) << "FE 1.5\nC 20\n";
