@@ -20,6 +20,18 @@ namespace {
 
 constexpr std::string_view kGzipMagic = "\x1f\x8b";
 
+/// How other compressed data are known, and the program that expands them.
+struct Compression {
+  std::string_view name;
+  std::size_t offset;
+  std::string_view magic;
+  std::string_view program;
+};
+constexpr std::array<Compression, 3> kUnknownCompressions = {
+    {{"bzip2", 4, "1AY&SY", "bzcat"},  // of its first block; the letters at the beginning could be text
+     {"xz", 0, std::string_view("\xfd\x37zXZ\0", 6), "xzcat"},
+     {"zstd", 0, "\x28\xb5\x2f\xfd", "zstdcat"}}};
+
 /// Gzip makes atoms and meshes 3 to 10 times smaller, and other data up to 1032 times: what expands more than this, and
 /// to more than is always expanded, is neither.
 constexpr std::size_t kLargestExpansion = 200;
@@ -119,8 +131,19 @@ bool ends_in(std::string_view name, std::string_view ending) {
                     [](char a, char b) { return to_upper(a) == to_upper(b); });
 }
 
+/// Throws InputError for compressed data of the kinds that are not expanded here.
+void require_known_compression(std::string_view data, std::string_view name) {
+  for (const Compression& kind : kUnknownCompressions) {
+    if (data.size() < kind.offset || !data.substr(kind.offset).starts_with(kind.magic)) continue;
+    throw InputError(std::string(name) + ": expected plain or gzipped data, got " + std::string(kind.name) +
+                     "; expand it first, or on the way to standard input as in '" + std::string(kind.program) +
+                     " FILE | gaussmesh -', with --input-format for molecules that are not PQR");
+  }
+}
+
 std::string expand(std::string data, std::string_view name) {
   if (data.starts_with(kGzipMagic)) return GzipReader(data, name).expand();
+  require_known_compression(data, name);
   return data;
 }
 

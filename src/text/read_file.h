@@ -10,7 +10,7 @@ namespace gaussmesh {
 
 /// The whole file. Gzip is known by its first bytes; data that expand to more than 64 MiB and 200-fold are refused.
 ///
-/// @throws InputError if it is missing, a directory, unreadable, or corrupt gzip
+/// @throws InputError if it is missing, a directory, unreadable, corrupt gzip, or compressed by bzip2, xz or zstd
 std::string read_file(const std::filesystem::path& path);
 
 /// What is left of `input`, in the same way; `name` stands for it in messages.

@@ -12,6 +12,7 @@
 #include "atoms/atom_file_checks.h"
 
 using namespace gaussmesh;
+using namespace std::string_literals;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
@@ -176,6 +177,20 @@ TEST_CASE("read_atoms reads lines of any length") {
   const std::string remark = "REMARK " + std::string(2'000'000, 'x') + "\n";
   const TemporaryFile file("long_line.pqr", remark + content_of(edge_path("dialect_00_base.pqr")));
   require_same_atoms(read_atoms(file.path()).atoms, read_edge("dialect_00_base.pqr").atoms);
+}
+
+TEST_CASE("other compressions are named") {
+  const auto told = [](const std::string& kind, const std::string& program) {
+    return ": expected plain or gzipped data, got " + kind +
+           "; expand it first, or on the way to standard input as in '" + program +
+           " FILE | gaussmesh -', with --input-format for molecules that are not PQR";
+  };
+  CHECK_THAT(error_of_file("a.pqr.bz2", "BZh91AY&SY\x12\0"s), Catch::Matchers::EndsWith(told("bzip2", "bzcat")));
+  CHECK_THAT(error_of_file("a.pqr.xz", "\xfd\x37zXZ\0\0"s), Catch::Matchers::EndsWith(told("xz", "xzcat")));
+  CHECK_THAT(error_of_file("a.pqr.zst", "\x28\xb5\x2f\xfd\0"s), Catch::Matchers::EndsWith(told("zstd", "zstdcat")));
+  std::istringstream input("\xfd\x37zXZ\0\0"s);
+  CHECK(input_error_of([&] { read_atoms(input, "standard input"); }) == "standard input" + told("xz", "xzcat"));
+  CHECK_THAT(error_of_file("a.pqr", "BZh"), ContainsSubstring("atoms"));
 }
 
 TEST_CASE("read_atoms reads gzip of several members and with padding") {
