@@ -61,13 +61,17 @@ run_ctest() {
 
 build() { cmake --preset "$1" && cmake --build --preset "$1" -j "$(nproc)"; }
 
-# fuzz TARGET: starts from the test inputs and a small mesh in all formats; new inputs go to a folder of the build.
+# fuzz TARGET: starts from the test inputs, a small mesh in all formats and a file of radii; new inputs go to a folder of
+# the build.
 fuzz() {
   local target=$1 corpus=build/fuzz/corpus/$1 seeds=build/fuzz/seeds
   mkdir -p "$corpus" "$seeds"
   (cd "$seeds" && ../bin/gaussmesh ../../../data/methanol.pqr --spacing 1.2 -o m.off -o m.vert -o m.ply -o m.obj \
     -o m.stl -o m.msh -o m.smesh -o m.vtp && ../bin/gaussmesh convert m.ply m41.msh --format gmsh41 &&
-    ../bin/gaussmesh convert m.ply ascii.ply --format ply-ascii) || return 1
+    ../bin/gaussmesh convert m.ply ascii.ply --format ply-ascii &&
+    gmsh -v 1 m.msh -save -save_all -bin -format msh22 -o binary22.msh &&
+    gmsh -v 1 m.msh -save -save_all -bin -format msh41 -o binary41.msh &&
+    printf 'HEM FE 1.5 # residue and name\nCA\t2.3D+00\nC 1.7\n' >my.radii) || return 1
   "build/fuzz/fuzz/$target" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 \
     -artifact_prefix="build/fuzz/$target-" "$corpus" "$seeds" tests/data
 }
