@@ -99,6 +99,7 @@ std::filesystem::path part_path(const std::filesystem::path& path, const FormatP
   std::filesystem::path result = without_gzip(path.native());
   const std::string ending = path.native().substr(result.native().size());
   const std::string own = lower_case(result.extension().string());
+  if (own == part.extension) return path;  // in capitals too: what is named is what is written
   if (own == ".vert" || own == ".face") result.replace_extension();
   return (result += part.extension) += ending;
 }

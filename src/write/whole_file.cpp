@@ -50,6 +50,16 @@ std::string random_letters() {
   return text;
 }
 
+/// What temporary names begin with: a name may be as long as the file system takes, and has to leave room for letters.
+std::string beginning(std::string name) {
+  constexpr std::size_t kMost = 100;  // bytes; encrypted folders take 143, others 255
+  if (name.size() <= kMost) return name;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // not amid a character of UTF-8
+  name.resize(end);
+  return name;
+}
+
 }  // namespace
 
 std::atomic<WholeFile::Unfinished*> WholeFile::unfinished_{nullptr};
@@ -130,7 +140,9 @@ void WholeFile::make_temporary() {
 }
 
 /// A name beside the target that is not likely to be taken.
-std::string WholeFile::beside_target() const { return target_.string() + "." + random_letters(); }
+std::string WholeFile::beside_target() const {
+  return target_.parent_path() / (beginning(target_.filename().string()) + "." + random_letters());
+}
 
 void WholeFile::fail(const char* what) const {
   throw InputError(path_.string() + ": the output file " + what + ": " + std::strerror(errno));

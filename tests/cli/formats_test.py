@@ -286,6 +286,9 @@ class Convert(FormatTest):
                 self.assertEqual(gzip.decompress(packed), FormatTest.made[name])
                 self.assertLess(len(packed), 0.8 * len(FormatTest.made[name]))
         self.expect(0, "check", "n.face.gz")
+        self.expect(0, "convert", "m.ply", "c.Vert.GZ")
+        self.assertEqual(gzip.decompress((self.folder / "c.Vert.GZ").read_bytes()), FormatTest.made["m.vert"])
+        self.expect(0, "check", "c.Vert.GZ")
         self.expect(0, self.molecule("dmso"), *LEVEL, "--cavities", "separate", "-o", "s.OFF.GZ", "--format", "ply",
                     "--report", "r.json.gz")
         self.assertTrue(gzip.decompress((self.folder / "s_1.OFF.GZ").read_bytes()).startswith(b"ply\n"))
@@ -373,7 +376,7 @@ class Names(CliTest):
 
     def test_upper_case(self):
         self.expect(0, self.molecule("methanol"), "-o", "M.OFF", "-o", "M.VERT")
-        self.assertEqual(self.files(), ["M.OFF", "M.face", "M.vert"])
+        self.assertEqual(self.files(), ["M.OFF", "M.VERT", "M.face"])
 
     def test_no_second_output_is_written_where_the_first_cannot_be(self):
         self.expect(BAD_INPUT, self.molecule("methanol"), "-o", "good.off", "-o", "no/such/folder.off")

@@ -111,6 +111,21 @@ TEST_CASE("a symbolic link stays, and what it points to is replaced") {
   CHECK(read_file(folder / "elsewhere/f") == "new");
 }
 
+TEST_CASE("a name may be as long as the file system takes") {
+  const Folder folder;
+  const std::string plain(255, 'a');
+  std::string umlauts = "x";
+  while (umlauts.size() < 255) umlauts += "\u00fc";
+  for (const std::string& name : {plain, umlauts}) {
+    OutputFiles files;
+    files.add_text("x", folder / name);
+    files.add_text("y", folder / "other");
+    files.commit();
+    CHECK(read_file(folder / name) == "x");
+  }
+  CHECK(folder.files() == 3);
+}
+
 TEST_CASE("several files appear together or not at all") {
   const Folder folder;
   {
