@@ -203,7 +203,7 @@ void add_triangle_group(CLI::App& program, MeshCommand& command) {
           .add_option("--spacing", command.options.spacing,
                       "wanted mean edge of the triangles (A, 0.01 to 200, with --raw to 1000; default: 0.5)")
           ->type_name("H")
-          ->check(number_between(0.01, 1000.0))
+          ->check(number_between(0.01, 1000.0, "a number from 0.01 to 200, with --raw to 1000"))
           ->group(group);
   program
       .add_option(
@@ -211,16 +211,17 @@ void add_triangle_group(CLI::App& program, MeshCommand& command) {
           "the same by vertices per area (1/A^2, 3e-5 to 1e4, with --raw from 2e-6; default: none, --spacing 0.5 is "
           "4.6)")
       ->type_name("V")
-      ->check(number_between(2e-6, 1e4))
+      ->check(number_between(2e-6, 1e4, "a number from 3e-05 to 10000, with --raw from 2e-06"))
       ->excludes(spacing)
       ->group(group);
   CLI::Option* tolerance =
       program
           .add_option("--tolerance", command.options.tolerance,
-                      "smaller triangles where they would be farther than this from the surface (A, 0 to 1000; "
+                      "smaller triangles where they would be farther than this from the surface (A, 1e-6 to 1000; "
                       "default: 0, no limit)")
           ->type_name("T")
-          ->check(number_between(0.0, 1000.0))
+          ->check(zero_or_number_between(
+              1e-6, 1000.0, "0 or a number from 1e-06 to 1000, since vertices may be 1e-06 A from the surface"))
           ->group(group);
   program
       .add_flag_callback(
@@ -240,6 +241,7 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
       ->check(file_name_of_option())
       ->group(group);
   for (CLI::Option* option : add_format_options(program, command.writing)) option->group(group);
+      ->allow_extra_args(false)  // one behind each -o: the next word is the molecule, or the `--` before it
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
@@ -257,7 +259,7 @@ void add_running_group(CLI::App& program, MeshCommand& command) {
   program
       .add_option("--max-memory", command.max_memory,
                   "memory to get by with, such as 500M or 4G, at least 128M: what does not fit is kept in a temporary "
-                  "file beside the mesh (bytes; default: no limit)")
+                  "file beside the mesh (bytes, or K, M, G, T of 1024, 1024^2 and so on; default: no limit)")
       ->type_name("SIZE")
       ->transform(memory_size(kLeastMemory))
       ->group(group);

@@ -53,9 +53,18 @@ std::string unknown_option(const CLI::App& program, const std::string& word) {
          (is_letter ? "" : did_you_mean(name, names));
 }
 
-/// More names of files than there is use for.
-std::string too_many_words(const CLI::App& program, const std::vector<std::string>& extras) {
-  const std::string got = join_names(quoted(extras), ", ");
+/// Whether the word is written as an option is.
+bool has_dash(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
+
+/// More names of files than there is use for; a `--` among them is where options end.
+std::string too_many_words(const CLI::App& program, std::vector<std::string> extras) {
+  const auto mark = std::find(extras.begin(), extras.end(), "--");
+  std::string end;
+  if (mark != extras.end()) {
+    if (std::any_of(mark + 1, extras.end(), has_dash)) end = "; nothing behind -- is an option";
+    extras.erase(mark);
+  }
+  const std::string got = join_names(quoted(extras), ", ") + end;
   if (&called(program) != &program)
     return "gaussmesh " + called(program).get_name() + ": expected no further file, got " + got;
   const std::vector<std::string> molecule = program.get_option("molecule")->results();
@@ -125,9 +134,9 @@ std::string message_of(const CLI::App& program, const CLI::ParseError& error) {
   const std::string command = mistyped_command(program);  // whose options are not those of meshing
   if (!command.empty()) return command;
   const std::vector<std::string> extras = program.remaining(true);
-  const auto option = std::find_if(extras.begin(), extras.end(),
-                                   [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-  if (option != extras.end()) return unknown_option(program, *option);
+  const auto end = std::find(extras.begin(), extras.end(), "--");
+  const auto option = std::find_if(extras.begin(), end, has_dash);
+  if (option != end) return unknown_option(program, *option);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return too_many_words(program, extras);
   const auto config = std::dynamic_pointer_cast<const ConfigFile>(program.get_config_formatter());
   return (config ? config->place_of(error.what()) : "") + in_own_words(program, error);

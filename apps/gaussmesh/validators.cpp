@@ -29,7 +29,8 @@ std::string number_text(double value) {
 std::optional<std::uint64_t> bytes_of(const std::string& text) {
   constexpr std::string_view kUnits = "KMGT";
   constexpr double kMost = 0x1p62;
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const bool is_plain = finite_number(text).has_value() && !text.starts_with('-');  // with an exponent, perhaps
+  const std::size_t digits = is_plain ? text.size() : std::min(text.find_first_not_of("0123456789."), text.size());
   const std::optional<double> number = finite_number(text.substr(0, digits));
   std::string unit = text.substr(digits);
   for (const std::string_view end : {"iB", "B"}) {
@@ -59,14 +60,22 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
       "");
 }
 
-CLI::Validator number_between(double low, double high) {
+CLI::Validator number_between(double low, double high, const std::string& expected) {
+  const std::string range =
+      expected.empty() ? "a number from " + number_text(low) + " to " + number_text(high) : expected;
   return CLI::Validator(
-      [low, high](const std::string& text) {
+      [low, high, range](const std::string& text) {
         const std::optional<double> value = finite_number(text);
         if (value && *value >= low && *value <= high) return std::string();
-        return "expected a number from " + number_text(low) + " to " + number_text(high) + ", got '" + text + "'";
+        return "expected " + range + ", got '" + text + "'";
       },
       "");
+}
+
+CLI::Validator zero_or_number_between(double low, double high, const std::string& expected) {
+  const CLI::Validator others = number_between(low, high, expected);
+  return CLI::Validator(
+      [others](std::string& text) { return finite_number(text) == 0.0 ? std::string() : others(text); }, "");
 }
 
 CLI::Validator whole_number_between(int low, int high) {

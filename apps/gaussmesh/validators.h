@@ -14,8 +14,11 @@ std::string join_names(const std::vector<std::string>& names, const std::string&
 /// Refuses every other name, and says which one is near. @param names  at least one
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-/// Takes numbers from `low` to `high`, both included.
-CLI::Validator number_between(double low, double high);
+/// Takes numbers from `low` to `high`, both included. Messages have `expected` for them, where that is not empty.
+CLI::Validator number_between(double low, double high, const std::string& expected = "");
+
+/// Takes 0 too.
+CLI::Validator zero_or_number_between(double low, double high, const std::string& expected);
 
 /// Takes whole numbers from `low` to `high`, both included.
 CLI::Validator whole_number_between(int low, int high);
@@ -32,7 +35,7 @@ CLI::Validator file_name();
 /// The same behind an option: what begins with a dash, but for `-`, is the next option, and a name has been forgotten.
 CLI::Validator file_name_of_option();
 
-/// Takes sizes of memory from `least` (bytes) on: whole numbers of bytes, or numbers of K, M, G or T of 1024, 1024^2,
+/// Takes sizes of memory from `least` (bytes) on: numbers of bytes, such as 1e9, or of K, M, G or T of 1024, 1024^2,
 /// ... bytes, with or without a B or iB behind. Makes bytes of them.
 CLI::Validator memory_size(std::uint64_t least);
 

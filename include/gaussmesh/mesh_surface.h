@@ -22,7 +22,7 @@ struct MeshOptions {
   double spacing = 0.5;           ///< wanted mean edge (A), 0.01 to 200; where the mesh stays as traced, that of the
                                   ///< cells, to 1000
   bool improve = true;            ///< make the triangles nearly equilateral; otherwise they stay as traced
-  double tolerance = 0.0;         ///< largest MeshReport::surface_distance (A), to 1000; 0: no limit
+  double tolerance = 0.0;         ///< largest MeshReport::surface_distance (A), 1e-6 to 1000; 0: no limit
   bool measure_distance = false;  ///< fill MeshReport::surface_distance also where there is no tolerance
   int threads = 0;                ///< to 4096; 0: as many as there are processors
   double memory_bytes = 0.0;      ///< what there is for the mesh: one that surely takes more is not begun; 0: not known

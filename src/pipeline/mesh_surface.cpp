@@ -24,9 +24,6 @@
 namespace gaussmesh {
 namespace {
 
-/// How far vertices may be from phi = c (A): the promise of mesh_surface().
-constexpr double kVertexTolerance = 1e-6;
-
 /// Measures the stages one after the other.
 class Stopwatch {
  public:

@@ -214,6 +214,12 @@ class WrongUse(CliTest):
                                "--spacing: expected a number from 0.01 to 200 without --raw, got '300'"),
                               (["--density", 1e-5],
                                "--density: expected a number from 3e-05 to 10000 without --raw, got '1e-05'"),
+                              (["--spacing", 0], "--spacing: expected a number from 0.01 to 200, with --raw to 1000, "
+                                                 "got '0'"),
+                              (["--density", 1e-6], "--density: expected a number from 3e-05 to 10000, with --raw "
+                                                    "from 2e-06, got '1e-06'"),
+                              (["--tolerance", 1e-12], "--tolerance: expected 0 or a number from 1e-06 to 1000, since "
+                                                       "vertices may be 1e-06 A from the surface, got '1e-12'"),
                               (["--min-cavity-volume", -1], "--min-cavity-volume: expected a number >= 0, got '-1'"),
                               (["--d", 0.5, "--d", 0.6], "--d: expected once, got 2 values: '0.5', '0.6'"),
                               (["--spacings", 0.5],
@@ -258,6 +264,19 @@ class WrongUse(CliTest):
             self.refused(*arguments, names="^gaussmesh: " + re.escape(said))
         error = self.expect(BAD_INPUT, molecule, *write, "--config", "none.toml").stderr
         self.assertEqual(error.splitlines()[0], "gaussmesh: none.toml: expected a readable file of options, got none")
+
+    def test_names_that_begin_with_a_dash(self):
+        """Behind `--` nothing is an option, wherever it stands."""
+        self.write("-x.pqr", self.molecule("methanol").read_bytes())
+        for words in [["-o", "b.off", "--", "-x.pqr"], ["-o", "b.off", "--quiet", "--", "-x.pqr"],
+                      ["-o", "b.off", "./-x.pqr"], ["-o", "a.off", "-o", "b.off", "--", "-x.pqr"]]:
+            self.expect(0, *words)
+            (self.folder / "b.off").unlink()
+        self.refused("--", "mol.pqr", "-o", "b.off", names="^gaussmesh: expected one molecule, got 'mol.pqr' and '-o', "
+                                                           "'b.off'; nothing behind -- is an option\n")
+        self.refused("check", "--", "a.off", "a.pqr", "--json",
+                     names="gaussmesh check: expected no further file, got '--json'; nothing behind -- is an option\n")
+        self.refused("--raww", "--", "a", "b", names="^gaussmesh: expected an option of gaussmesh, got '--raww'; did")
 
     def test_check_of_nothing(self):
         self.refused("check")
@@ -309,7 +328,7 @@ class TooLarge(CliTest):
         for options, said in [(["--spacing", 0.01], r"some 7\.3e\+14 triangles .* can be numbered; choose a larger spacing$"),
                               (["--spacing", 0.01, "--raw"], r"some 7\.3e\+14 triangles .* choose a larger spacing$"),
                               (["--spacing", 3], r"some 8\.1e\+09 triangles .* can be numbered"),
-                              (["--tolerance", 1e-8, "--spacing", 9], r"choose a larger spacing or tolerance$")]:
+                              (["--tolerance", 1e-6, "--spacing", 9], r"choose a larger spacing or tolerance$")]:
             error = self.expect(CANNOT_MESH, atom, *options, "-o", self.mesh).stderr
             self.assertRegex(error.strip(), said)
             self.assertEqual(self.files(), ["large.xyzr"])
@@ -542,7 +561,7 @@ class Running(CliTest):
     def test_the_configuration_file_is_named_with_its_line(self):
         molecule = self.molecule("methanol")
         for text, said in [("# no option\n\nspacing = 0\n",
-                            "3: --spacing: expected a number from 0.01 to 1000, got '0'"),
+                            "3: --spacing: expected a number from 0.01 to 200, with --raw to 1000, got '0'"),
                            ('preset = "vdv"\n', "1: --preset: expected ses-volume"),
                            ("c = 1.2\nthreads = 1.5\n",
                             "2: --threads: expected a whole number from 0 to 4096, got '1.5'"),

@@ -51,10 +51,10 @@ class Memory(CliTest):
         self.both("128MiB", "--spacing", 0.3, "--threads", 2)
 
     def test_sizes(self):
-        for size in ("127M", "0", "-1G", "1X", "G", "1.2.3G", "4 apples", "1e9", ""):
+        for size in ("127M", "0", "-1G", "1X", "G", "1.2.3G", "4 apples", "1e8", "-1e9", "1e9M", ""):
             result = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, "--max-memory", size)
             self.assertIn("expected a size of at least 128M such as 500M or 4G", result.stderr, size)
-        for size in ("128M", "0.25G", "4GB", "2TiB", "200000k", "134217728"):
+        for size in ("128M", "0.25G", "4GB", "2TiB", "200000k", "134217728", "1e9"):
             self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--max-memory", size)
 
     def test_says_that_the_disk_is_full(self):

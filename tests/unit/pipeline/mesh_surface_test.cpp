@@ -428,6 +428,7 @@ TEST_CASE("options out of their range are refused by name") {
     refused(&MeshOptions::isovalue, bad, "isovalue");
     refused(&MeshOptions::spacing, bad, "spacing");
   }
+  for (const double bad : {-1.0, nan, infinity, 1e-12, 1e12}) refused(&MeshOptions::tolerance, bad, "tolerance");
   MeshOptions o;
   o.threads = -1;
   CHECK_THROWS_AS(mesh_surface(atoms, o), OptionError);
