@@ -26,6 +26,7 @@
 #include <cstring>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -156,6 +157,33 @@ void make_room(std::uint64_t soon) {
   makes_room = false;
 }
 
+/// Zeros to the file, where the file system cannot set room aside: a page that is written to by its mapping alone has
+/// none there until the system puts it on the disk. @return whether there is room
+bool write_zeros(off_t offset, std::size_t bytes) {
+  static constexpr char kZeros[std::size_t{1} << 16] = {};
+  while (bytes > 0) {
+    const ssize_t n = ::pwrite(spool.file, kZeros, std::min(bytes, sizeof kZeros), offset);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    offset += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  // Only then is it known whether a disk of another machine is full.
+  while (::fdatasync(spool.file) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
+/// Sets room aside for a part of the file, behind all that is there. @return whether there is room
+bool set_aside(off_t offset, std::size_t bytes) {
+  int result = 0;
+  do {
+    result = ::fallocate(spool.file, 0, offset, static_cast<off_t>(bytes));
+  } while (result != 0 && errno == EINTR);
+  return result == 0 || ((errno == EOPNOTSUPP || errno == ENOSYS) && write_zeros(offset, bytes));
+}
+
 /// New units, of which the first `bytes` are used.
 char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
   make_room(bytes);  // a large array is filled as soon as it is there
@@ -164,12 +192,7 @@ char* take_units(std::size_t units, std::size_t bytes, std::uint32_t use) {
   if (units > kUnits - first) throw NoRoomOnDisk();
   // Room is set aside now, since a page that cannot be written later is a signal and not an error.
   const auto offset = static_cast<off_t>(first * kUnit);
-  int result = 0;
-  do {
-    result = ::fallocate(spool.file, 0, offset, static_cast<off_t>(bytes));
-  } while (result != 0 && errno == EINTR);
-  if (result != 0 && errno == EOPNOTSUPP) result = ::ftruncate(spool.file, offset + static_cast<off_t>(bytes));
-  if (result != 0) throw NoRoomOnDisk();
+  if (!set_aside(offset, bytes)) throw NoRoomOnDisk();
   use_of(first) = use;
   spool.units = first + units;
   return spool.base + offset;
@@ -225,9 +248,8 @@ void look_at_limit(int) {
   errno = error;
 }
 
-[[noreturn]] void fail(const std::filesystem::path& folder) {
-  throw gaussmesh::InputError("max-memory: " + folder.string() +
-                              ": the temporary file cannot be created: " + std::strerror(errno));
+[[noreturn]] void fail(const std::string& what) {
+  throw gaussmesh::InputError("max-memory: " + what + ": " + std::strerror(errno));
 }
 
 }  // namespace
@@ -250,11 +272,13 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   spool.file = ::mkostemp(name.data(), O_CLOEXEC);
   const bool is_made = spool.file >= 0 && ::unlink(name.c_str()) == 0;
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (!is_made) fail(folder);
+  if (!is_made) fail(folder.string() + ": the temporary file cannot be created");
   void* const base = ::mmap(nullptr, kSpan, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, spool.file, 0);
-  if (base == MAP_FAILED) fail(folder);
+  if (base == MAP_FAILED) {
+    fail(std::to_string(kSpan >> 40) + " TiB of addresses for the temporary file cannot be had, see ulimit -v");
+  }
   spool.statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (spool.statm < 0) fail("/proc/self/statm");
+  if (spool.statm < 0) fail("/proc/self/statm, which tells what is in memory, cannot be opened");
   spool.base = static_cast<char*>(base);
   spool.page_size = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   // Processor time is counted in ticks of the system's clock, of some milliseconds: pages that are in the system's
@@ -269,7 +293,12 @@ void limit_memory(std::uint64_t limit, const std::filesystem::path& folder) {
   ::sigaction(SIGPROF, &action, nullptr);
   const itimerval often{{0, 1000}, {0, 1000}};  // 1 ms of processor time, on all threads together
   ::setitimer(ITIMER_PROF, &often, nullptr);
-  std::thread(watch_limit).detach();
+  try {
+    std::thread(watch_limit).detach();
+  } catch (const std::system_error& error) {
+    throw CannotMeshError(std::string("max-memory: the thread that watches the limit cannot be started: ") +
+                          error.code().message());
+  }
   spool.is_on = true;
 }
 

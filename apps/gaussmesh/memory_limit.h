@@ -34,7 +34,8 @@ struct NoRoomOnDisk : std::bad_alloc {
 ///
 /// Linux. To be called once, before other threads are started.
 /// @param limit  at least kLeastMemory
-/// @throws InputError if the file cannot be made
+/// @throws InputError      if the file cannot be made, or not be mapped
+/// @throws CannotMeshError if no thread can be started
 /// Afterwards `new` throws NoRoomOnDisk where the file cannot grow.
 void limit_memory(std::uint64_t limit, const std::filesystem::path& folder);
 

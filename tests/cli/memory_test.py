@@ -8,10 +8,12 @@ import filecmp
 import json
 import os
 import resource
+import shutil
 import subprocess
 import sys
+import unittest
 
-from support import CANNOT_MESH, WRONG_USE, CliTest, run_tests, settings
+from support import BAD_INPUT, CANNOT_MESH, WRONG_USE, CliTest, run_tests, settings
 
 MIB = 1 << 20
 
@@ -56,6 +58,31 @@ class Memory(CliTest):
             self.assertIn("expected a size of at least 128M such as 500M or 4G", result.stderr, size)
         for size in ("128M", "0.25G", "4GB", "2TiB", "200000k", "134217728", "1e9"):
             self.expect(0, self.molecule("methanol"), "-o", self.mesh, "--max-memory", size)
+
+    def test_says_what_there_is_too_little_of(self):
+        limit = (1 << 40, 1 << 40)  # less than the addresses of the temporary file
+        result = subprocess.run([settings.program, self.molecule("methanol"), "-o", self.mesh, "--max-memory", "128M"],
+                                capture_output=True, text=True, check=False,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit))
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("max-memory: 8 TiB of addresses for the temporary file cannot be had, see ulimit -v: ",
+                      result.stderr)
+
+    @unittest.skipUnless(os.geteuid() == 0 and shutil.which("mke2fs"), "mounting is for root")
+    def test_says_that_a_disk_is_full_that_sets_no_room_aside(self):
+        """On ext2, a page that is written to by its mapping would end the program."""
+        image, disk = self.folder / "image", self.folder / "disk"
+        disk.mkdir()
+        with open(image, "wb") as file:
+            file.truncate(8 * MIB)
+        subprocess.run(["mke2fs", "-q", "-F", image], check=True)
+        if subprocess.run(["mount", "-o", "loop", image, disk], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no file system can be mounted here")
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        error = self.expect(CANNOT_MESH, self.molecule("fas2"), "--raw", "--spacing", 0.1, "-o", disk / "out.off",
+                            "--max-memory", "128M").stderr
+        self.assertIn("max-memory: no room for the temporary file", error)
+        self.assertEqual([path.name for path in disk.iterdir()], ["lost+found"])
 
     def test_says_that_the_disk_is_full(self):
         """Wherever the file ends: the larger rooms last until the mesh is judged."""
