@@ -1,5 +1,6 @@
 // The program: options, exit codes, and what is said on the terminal.
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -65,6 +66,14 @@ void clean_up_and_die(int signal) {
   }
 }
 
+/// Gives standard streams that are closed an end that takes nothing, so that writing to them fails: the next file that
+/// is opened would have their number, and get what they are meant for.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU}) {
     // What the caller has told us to ignore, as nohup does, stays ignored.
@@ -123,11 +132,13 @@ int run(int argc, char** argv) {
   program.set_help_flag("-h,--help", "print this and exit")->group("Running");
   program.set_version_flag("--version", std::string("gaussmesh ") + gaussmesh::kVersion, "print the version and exit")
       ->group("Running");
-  program
-      .set_config("--config", "", "read options from a TOML file; those on the command line come first (default: none)")
-      ->type_name("FILE")
-      ->check(file_name_of_option())
-      ->group("Running");
+  CLI::Option* const config =
+      program
+          .set_config("--config", "",
+                      "read options from a TOML file; those on the command line come first (default: none)")
+          ->type_name("FILE")
+          ->check(file_name_of_option())
+          ->group("Running");
   program.config_formatter(std::make_shared<ConfigFile>(program));
   CheckCommand check;
   CLI::App* check_command = add_check_command(program, check);
@@ -148,6 +159,7 @@ int run(int argc, char** argv) {
   }
   require_known_command(program);
   require_command_alone(program);
+  if (config->count() > 0) mesh.config = config->as<std::string>();
   if (!manual.empty()) return print_manual(program, manual);
   if (check_command->parsed()) return run_check(check);
   if (convert_command->parsed()) return run_convert(convert);
@@ -181,6 +193,7 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_standard_streams();
   let_waiting_threads_sleep(argv);
   keep_large_arrays_apart();
   handle_signals();

@@ -1,16 +1,15 @@
 #include "mesh_command.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <sstream>
 
 #include "exit_code.h"
 #include "gaussmesh/error.h"
-#include "gaussmesh/nearest_name.h"
 #include "gaussmesh/select_components.h"
 #include "memory_limit.h"
+#include "output_names.h"
 #include "output_options.h"
 #include "progress.h"
 #include "validators.h"
@@ -57,27 +56,6 @@ void require_sense(const MeshCommand& command) {
   }
 }
 
-/// Where temporary files for an output belong.
-std::filesystem::path folder_of(const std::filesystem::path& output) {
-  std::error_code error;
-  const bool is_pipe_or_device =
-      std::filesystem::exists(output, error) && !std::filesystem::is_regular_file(output, error);
-  if (output == "-" || is_pipe_or_device) return std::filesystem::temp_directory_path();
-  return output.has_parent_path() ? output.parent_path() : ".";
-}
-
-/// The name of the file for one of several surfaces: from out.off to out_1.off, from out.off.gz to out_1.off.gz.
-std::string numbered(const std::string& output, std::size_t number) {
-  const std::filesystem::path path = output;
-  std::filesystem::path stem = path.stem();
-  std::string extension = path.extension().string();
-  if (lower_case(extension) == ".gz") {
-    extension = stem.extension().string() + extension;
-    stem = stem.stem();
-  }
-  return (path.parent_path() / (stem.string() + "_" + std::to_string(number) + extension)).string();
-}
-
 /// The names of all meshes where there are so many surfaces.
 std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t surfaces) {
   if (command.cavities != "separate") return command.outputs;
@@ -90,8 +68,9 @@ std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t
 
 /// Finds out what cannot be written where there are so many surfaces.
 void require_writable_files(const MeshCommand& command, std::size_t surfaces) {
-  require_writable_outputs(names_of_meshes(command, surfaces), command.report, command.writing,
-                           files_of_molecule(command.molecule, command.reading));
+  std::vector<std::string> inputs = files_of_molecule(command.molecule, command.reading);
+  inputs.push_back(command.config);
+  require_writable_outputs(names_of_meshes(command, surfaces), command.report, command.writing, inputs);
 }
 
 /// What is written.
@@ -127,25 +106,25 @@ void tell_of_input(const MeshCommand& command, const Surface& surface, const Ato
 }
 
 /// What the formats of the outputs hold.
-VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result) {
+VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>& atoms, const MeshResult& result,
+                            int threads) {
   VertexData data;
   data.normals = result.normals;
   for (const std::string& output : command.outputs) {
     if (format_of(output, command.writing).held != HeldData::kAll) continue;
-    data.atoms = find_nearest_atoms(result.mesh, atoms, command.options.threads);
+    data.atoms = find_nearest_atoms(result.mesh, atoms, threads);
     data.components = find_vertex_components(result.mesh, result.report.check);
     break;
   }
   return data;
 }
 
-/// Writes all meshes and the report, all of them or none; returns what the first output became.
-std::string write_all(const MeshCommand& command, const Product& product) {
+/// Writes all meshes and the report; they still have to be put in their places.
+OutputFiles write_all(const MeshCommand& command, const Product& product, int threads) {
   const auto& [surface, report] = product;
   WriteOptions writing = command.writing;
-  writing.threads = command.options.threads;
+  writing.threads = threads;
   OutputFiles files;
-  std::string first = command.outputs.front();
   if (command.cavities == "separate") {
     const std::size_t count = report.check.components.size();
     for (std::uint32_t component = 0; component < count; ++component) {
@@ -153,13 +132,11 @@ std::string write_all(const MeshCommand& command, const Product& product) {
       for (const std::string& output : command.outputs)
         files.add_mesh(part.mesh, part.data, numbered(output, component + 1), writing);
     }
-    first = numbered(first, 1) + (count > 1 ? " to " + numbered(first, count) : "");
   } else {
     for (const std::string& output : command.outputs) files.add_mesh(surface.mesh, surface.data, output, writing);
   }
   if (!command.report.empty()) files.add_text(report_json(report), command.report);
-  files.commit();
-  return first;
+  return files;
 }
 
 void print_details(const MeshReport& report, std::ostream& out) {
@@ -170,6 +147,31 @@ void print_details(const MeshReport& report, std::ostream& out) {
       << " deg, smallest one of a triangle " << report.check.mean_min_angle_deg << " deg on average\n";
   for (const StageCost& stage : report.stages)
     out << "  " << stage.name << ": " << stage.time_s << " s, " << stage.peak_memory_MB << " MB\n";
+}
+
+/// What the first output became.
+std::string name_of_first(const MeshCommand& command, std::size_t surfaces) {
+  const std::string& first = command.outputs.front();
+  if (command.cavities != "separate") return first;
+  return numbered(first, 1) + (surfaces > 1 ? " to " + numbered(first, surfaces) : "");
+}
+
+/// Tells of files that are there as if there were more surfaces.
+void warn_of_others(const MeshCommand& command, std::size_t surfaces) {
+  for (const std::string& output : command.outputs) {
+    const std::string others = numbered_from(output, surfaces + 1, command.writing);
+    if (others.empty()) continue;
+    std::cerr << "gaussmesh: warning: expected no more than " << numbered(output, surfaces) << ", got " << others
+              << " too, which an earlier run may have left\n";
+  }
+}
+
+/// Prints what was made.
+void print_summary(const MeshCommand& command, const MeshReport& report) {
+  std::ostringstream text;
+  text << name_of_first(command, report.check.components.size()) << ": " << report_summary(report);
+  if (command.verbose) print_details(report, text);
+  print_at_once(is_standard_output_taken(command) ? std::cerr : std::cout, text.str());
 }
 
 void add_surface_group(CLI::App& program, MeshCommand& command) {
@@ -238,10 +240,10 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
                   "mesh to write, gzipped if it ends in .gz; may be given several times; -: standard output (required)")
       ->type_name("FILE")
       ->take_all()
+      ->allow_extra_args(false)  // one behind each -o: the next word is the molecule, or the `--` before it
       ->check(file_name_of_option())
       ->group(group);
   for (CLI::Option* option : add_format_options(program, command.writing)) option->group(group);
-      ->allow_extra_args(false)  // one behind each -o: the next word is the molecule, or the `--` before it
   program
       .add_option("--report", command.report,
                   "write everything that is known of the mesh, JSON; -: standard output (default: none)")
@@ -285,11 +287,13 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
 int run_mesh(const MeshCommand& command) {
   require_sense(command);
   require_writable_files(command, 1);
-  if (command.max_memory > 0) limit_memory(command.max_memory, folder_of(command.outputs.front()));
+  if (command.max_memory > 0) limit_memory(command.max_memory, folder_of_temporary(command.outputs.front()));
+  const int threads = command.options.threads;
   const Surface surface = surface_of(command.surface, command.reading);
   const AtomFile input =
       read_molecule(command.molecule, surface.reading, command.quiet ? Warnings::kKeepBack : Warnings::kPrint);
   MeshOptions options = command.options;
+  options.threads = threads;
   options.decay = surface.decay;
   options.isovalue = surface.isovalue;
   if (command.density) options.spacing = spacing_for_density(*command.density);
@@ -305,15 +309,15 @@ int run_mesh(const MeshCommand& command) {
     return mesh_surface(input.atoms, options);
   }();
   tell_of_input(command, surface, input, result.report);
-  VertexData data = find_vertex_data(command, input.atoms, result);
+  VertexData data = find_vertex_data(command, input.atoms, result, threads);
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
-  if (command.cavities == "separate") require_writable_files(command, product.report.check.components.size());
-  const std::string first = write_all(command, product);
-  if (command.quiet) return kGood;
-  std::ostream& out = is_standard_output_taken(command) ? std::cerr : std::cout;
-  out << first << ": " << report_summary(product.report);
-  if (command.verbose) print_details(product.report, out);
+  const std::size_t surfaces = product.report.check.components.size();
+  if (command.cavities == "separate") require_writable_files(command, surfaces);
+  OutputFiles files = write_all(command, product, threads);
+  if (!command.quiet) print_summary(command, product.report);
+  files.commit();
+  if (command.cavities == "separate" && !command.quiet) warn_of_others(command, surfaces);
   return kGood;
 }
 

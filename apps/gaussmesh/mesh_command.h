@@ -22,6 +22,7 @@ struct MeshCommand {
   std::optional<double> density;     ///< vertices per A^2, instead of options.spacing
   std::vector<std::string> outputs;  ///< "-": standard output
   std::string report;                ///< empty: none
+  std::string config;                ///< file of options that has been read; empty: none
   bool quiet = false;
   bool verbose = false;
   std::uint64_t max_memory = 0;  ///< bytes; 0: no limit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <set>
 
 #include "gaussmesh/error.h"
@@ -17,6 +18,15 @@ void require_other_file(const std::vector<std::string>& inputs, const std::strin
     if (!std::filesystem::is_regular_file(input, error) || !std::filesystem::equivalent(input, output, error)) continue;
     throw OptionError("expected another file to write than '" + input + "', which is read, got '" + output + "'");
   }
+}
+
+/// @throws InputError where the folder that the program runs in has been deleted
+std::filesystem::path absolute(const std::string& output) {
+  std::error_code error;
+  std::filesystem::path path = std::filesystem::absolute(output, error);
+  if (!error) return path;
+  throw InputError(output +
+                   ": expected an output file in the working directory, which cannot be found: " + error.message());
 }
 
 }  // namespace
@@ -51,7 +61,7 @@ void require_files(const std::vector<std::string>& inputs, const std::vector<std
     require_other_file(inputs, output);
     std::error_code error;
     std::filesystem::path place = output;
-    if (output != "-") place = std::filesystem::weakly_canonical(std::filesystem::absolute(output), error);
+    if (output != "-") place = std::filesystem::weakly_canonical(absolute(output), error);
     if (error) place = output;  // of a pipe of the shell, whose link in /dev/fd leads nowhere
     const bool is_device = std::filesystem::is_character_file(place, error);
     if (!seen.insert(place).second && !is_device)
@@ -68,6 +78,11 @@ void require_writable_outputs(const std::vector<std::string>& outputs, const std
   }
   files.push_back(report);
   require_files(inputs, files);
+}
+
+void print_at_once(std::ostream& out, const std::string& text) {
+  out << text << std::flush;
+  if (!out && &out == &std::cout) throw InputError("standard output: cannot be written to");
 }
 
 bool is_standard_output(const std::string& output) {

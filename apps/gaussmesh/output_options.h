@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ void require_files(const std::vector<std::string>& inputs, const std::vector<std
 /// The same for the files that meshes become, and a report. @throws OptionError also for an unknown format
 void require_writable_outputs(const std::vector<std::string>& outputs, const std::string& report,
                               const WriteOptions& writing, const std::vector<std::string>& inputs);
+
+/// Prints the text where a failure can still be told. To be called before files are put in their places: then they are
+/// not, where standard output is full or closed.
+///
+/// @throws InputError if standard output cannot be written to
+void print_at_once(std::ostream& out, const std::string& text);
 
 /// Whether the name is one of those that standard output goes by.
 bool is_standard_output(const std::string& output);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "output_options.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -77,8 +78,8 @@ void put_report(const std::string& text, const std::string& json, const std::opt
                 std::ostream& out, OutputFiles files) {
   const bool json_to_terminal = json_file == "-";
   if (json_file && !json_to_terminal) files.add_text(json, *json_file);
+  print_at_once(json_to_terminal ? std::cout : out, json_to_terminal ? json : text);
   files.commit();
-  (json_to_terminal ? std::cout << json : out << text) << std::flush;
 }
 
 void add_json_option(CLI::App& command, std::optional<std::string>& file) {

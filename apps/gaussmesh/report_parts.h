@@ -39,7 +39,7 @@ MeshFile read_mesh_argument(const std::string& path);
 std::string json_text(const Json& json);
 
 /// Writes the JSON if a file is named, together with `files`, and prints the text to `out`: "-" puts the JSON on
-/// standard output in place of the text.
+/// standard output in place of the text. @throws InputError if one of them cannot be written; then there are no files
 void put_report(const std::string& text, const std::string& json, const std::optional<std::string>& json_file,
                 std::ostream& out = std::cout, OutputFiles files = {});
 

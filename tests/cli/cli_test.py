@@ -487,6 +487,18 @@ class Surfaces(CliTest):
         self.assertIn("is this a cavity by itself", self.expect(CHECK_FAILED, "check", "out_3.off").stdout)
 
 
+    def test_files_of_more_surfaces_are_told(self):
+        for name in ["out_2.off", "out_3.off", "out_5.off", "s_2.face"]:
+            self.write(name, "old\n")
+        atom = self.write("atom.pqr", BadInput.GOOD)
+        separate = [atom, "--cavities", "separate", "--spacing", 1, "-o", "out.off", "-o", "s.vert"]
+        said = self.expect(0, *separate).stderr
+        self.assertEqual(said, "gaussmesh: warning: expected no more than out_1.off, got out_2.off to out_3.off too, "
+                               "which an earlier run may have left\n")
+        self.assertEqual((self.folder / "out_2.off").read_text(), "old\n")
+        self.assertEqual(self.expect(0, *separate, "--quiet").stderr, "")
+
+
 class Running(CliTest):
     """Streams, what is said, configuration, and being stopped."""
 
@@ -624,6 +636,11 @@ class Running(CliTest):
             self.assertIn("which is read", self.expect(WRONG_USE, *command).stderr)
         self.assertEqual((molecule.read_bytes(), self.mesh.read_bytes()), (text, mesh))
         self.assertEqual(self.files(), ["link.off", "mol.pqr", "out.off"])
+        self.write("run.toml", "spacing = 1\n")
+        for outputs in [["-o", "run.toml", "--format", "off"], ["-o", "new.off", "--report", "./run.toml"]]:
+            self.assertIn("than 'run.toml', which is read",
+                          self.expect(WRONG_USE, "--config", "run.toml", "mol.pqr", *outputs).stderr)
+        self.assertEqual((self.folder / "run.toml").read_text(), "spacing = 1\n")
 
     def test_separate_surfaces_replace_nothing_that_is_read_or_written(self):
         molecule = self.write("mol_1.pqr", self.molecule("methanol").read_text())
@@ -684,6 +701,56 @@ class Running(CliTest):
             for command in [["--help"], [self.molecule("methanol"), "-o", "good.off"]]:
                 self.assertEqual(subprocess.run([settings.program, *command], cwd=self.folder, stdout=full,
                                                 stderr=subprocess.DEVNULL, check=False).returncode, BAD_INPUT)
+
+    def test_nothing_is_replaced_where_nothing_can_be_said(self):
+        self.expect(0, self.molecule("methanol"), "-o", "m.off")
+        self.mesh.write_text("an older mesh\n")
+        for command in ([self.molecule("methanol"), "-o", "out.off"],
+                        [self.molecule("methanol"), "-o", "out.off", "--max-memory", "128M"],
+                        ["check", "m.off", "--json", "out.off"], ["compare", "m.off", "m.off", "--json", "out.off"],
+                        ["measure", "m.off", self.molecule("methanol"), "--atom-areas", "out.off"]):
+            for out in (">/dev/full", ">&-"):
+                run = " ".join(map(str, [settings.program, *command, out]))
+                result = subprocess.run(["bash", "-c", run], cwd=self.folder, capture_output=True, text=True,
+                                        check=False)
+                self.assertEqual((result.returncode, result.stderr),
+                                 (BAD_INPUT, "gaussmesh: standard output: cannot be written to\n"), run)
+                self.assertEqual(self.mesh.read_text(), "an older mesh\n")
+        self.assertEqual(self.files(), ["m.off", "out.off"])
+
+    def test_closed_streams(self):
+        """The molecule is no part of what is said, and what is said none of the mesh."""
+        self.expect(0, self.molecule("methanol"), "-o", self.mesh)
+        run = f"{settings.program} {self.molecule('methanol')} -o a.off 2>&- <&-; echo $?"
+        said = subprocess.run(["bash", "-c", run], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        self.assertEqual(said.splitlines()[-1], "0")
+        self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
+
+    def test_folders_that_are_not_there(self):
+        (self.folder / "gone").mkdir()
+        run = f"cd gone && rmdir ../gone && {settings.program} {self.molecule('methanol')} -o "
+        for output, code in [("b.off", BAD_INPUT), (self.mesh, 0)]:
+            result = subprocess.run(["bash", "-c", f"{run} {output}"], cwd=self.folder, capture_output=True, text=True,
+                                    check=False)
+            self.assertEqual(result.returncode, code, result.stderr)
+            (self.folder / "gone").mkdir()
+            if code != 0:
+                self.assertRegex(result.stderr, "^gaussmesh: b.off: expected an output file in the working directory, "
+                                                "which cannot be found: No such file")
+        result = subprocess.run([settings.program, self.molecule("methanol"), "-o", "-", "--max-memory", "128M"],
+                                env={**os.environ, "TMPDIR": "/no/such"}, capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stderr),
+                         (BAD_INPUT, "gaussmesh: max-memory: expected a folder for the temporary file in the variable "
+                                     "TMPDIR, got '/no/such'\n"))
+
+    def test_long_names(self):
+        """As long as the file system takes them, which temporary names have to be too."""
+        for name in ["a" * 251 + ".off", "\u00fc" * 125 + ".off", "b" * 256 + ".off"]:
+            fits = len(name.encode()) <= 255
+            result = self.expect(0 if fits else BAD_INPUT, self.molecule("methanol"), "-o", name, "-o", "x.ply")
+            self.assertEqual(self.files(), sorted([name, "x.ply"]) if fits else [], result.stderr)
+            for file in self.folder.iterdir():
+                file.unlink()
 
     def test_a_signal_while_writing(self):
         """A pipe that nobody reads holds the program in the middle of its second output; the first is temporary."""
