@@ -4,6 +4,7 @@
 #include "exit_code.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "threads.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -77,6 +78,7 @@ int run_check(const CheckCommand& command) {
   std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
   inputs.push_back(command.mesh);
   require_files(inputs, {command.json.value_or("")});
+  take_threads(0);
   const CheckFindings found = find_all(command);
   put_report(findings_text(found), findings_json(found), command.json);
   return found.is_good() ? kGood : kCheckFailed;

@@ -3,6 +3,7 @@
 #include "exit_code.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "threads.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -60,6 +61,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
 
 int run_compare(const CompareCommand& command) {
   require_files({command.first, command.second}, {command.json.value_or("")});
+  take_threads(0);
   const TriangleMesh first = read_mesh_argument(command.first).mesh;
   const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);

@@ -6,6 +6,7 @@
 #include "gaussmesh/error.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "threads.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -47,11 +48,12 @@ CLI::App* add_convert_command(CLI::App& program, ConvertCommand& command) {
 }
 
 int run_convert(const ConvertCommand& command) {
-  const WriteOptions& writing = command.writing;
+  WriteOptions writing = command.writing;
   require_header_to_leave_out(command.outputs, writing);
   // The mesh itself may be written over: all of it has been read by then.
   require_writable_outputs(command.outputs, "", writing,
                            files_of_molecule(command.molecule.value_or(""), command.reading));
+  writing.threads = take_threads(0);
   MeshFile file = read_mesh_argument(command.input);
   const MeshCheck check = check_mesh(file.mesh);
   if (check.bad_indices > 0) {
@@ -61,7 +63,7 @@ int run_convert(const ConvertCommand& command) {
   if (file.data.components.empty()) file.data.components = find_vertex_components(file.mesh, check);
   if (command.molecule) {
     const std::vector<Atom> atoms = read_molecule(*command.molecule, command.reading).atoms;
-    file.data.atoms = find_nearest_atoms(file.mesh, atoms, 0);
+    file.data.atoms = find_nearest_atoms(file.mesh, atoms, writing.threads);
   }
   if (file.data.normals.empty() && needs_normals(command.outputs, writing)) {
     file.data.normals = average_normals(file.mesh);

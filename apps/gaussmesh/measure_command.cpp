@@ -11,6 +11,7 @@
 #include "gaussmesh/write_mesh.h"
 #include "output_options.h"
 #include "report_parts.h"
+#include "threads.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -103,6 +104,7 @@ int run_measure(const MeasureCommand& command) {
   std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
   inputs.push_back(command.mesh);
   require_files(inputs, {command.json.value_or(""), command.atom_areas.value_or("")});
+  take_threads(0);
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)

@@ -12,6 +12,7 @@
 #include "output_names.h"
 #include "output_options.h"
 #include "progress.h"
+#include "threads.h"
 #include "validators.h"
 
 namespace gaussmesh::app {
@@ -288,7 +289,8 @@ int run_mesh(const MeshCommand& command) {
   require_sense(command);
   require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of_temporary(command.outputs.front()));
-  const int threads = command.options.threads;
+  const int threads =
+      take_threads(command.options.threads, command.quiet ? FewerThreads::kSayNothing : FewerThreads::kWarn);
   const Surface surface = surface_of(command.surface, command.reading);
   const AtomFile input =
       read_molecule(command.molecule, surface.reading, command.quiet ? Warnings::kKeepBack : Warnings::kPrint);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace gaussmesh::app {
@@ -33,7 +34,11 @@ ProgressBar::ProgressBar(bool improves) {
     total += share;
   }
   for (Stage& stage : stages_) stage.share /= total;
-  if (::isatty(STDERR_FILENO)) thread_ = std::thread([this] { show_until_done(); });
+  if (!::isatty(STDERR_FILENO)) return;
+  try {
+    thread_ = std::thread([this] { show_until_done(); });
+  } catch (const std::system_error&) {  // the work goes on without a bar
+  }
 }
 
 ProgressBar::~ProgressBar() {

@@ -13,7 +13,7 @@ namespace gaussmesh::app {
 
 /// A bar on the terminal, from the first second on until it is destroyed; nothing is left of it then.
 ///
-/// Where standard error is no terminal there is no bar.
+/// Where standard error is no terminal, or no thread can be started, there is no bar.
 class ProgressBar {
  public:
   /// @param improves  whether there is a stage that improves the triangles

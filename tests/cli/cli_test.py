@@ -752,6 +752,19 @@ class Running(CliTest):
             for file in self.folder.iterdir():
                 file.unlink()
 
+    @unittest.skipUnless(sys.platform == "linux", "elsewhere threads have stacks of another size")
+    def test_fewer_threads_than_asked_for(self):
+        """Stacks of 1 GiB in 4 GiB of addresses."""
+        run = f"ulimit -s {1 << 20}; ulimit -v {4 << 20}; exec {settings.program} "
+        self.expect(0, self.molecule("dmso"), "-o", self.mesh)
+        for command in (f"{self.molecule('dmso')} -o a.off --threads 20", f"convert {self.mesh} a.off"):
+            result = subprocess.run(["bash", "-c", run + command], cwd=self.folder, capture_output=True, text=True,
+                                    check=False, env={**os.environ, "OMP_NUM_THREADS": "20"})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stderr, "^gaussmesh: warning: expected to start 20 threads, got [1-4]; a limit on "
+                                            r"processes or memory \(ulimit -u, -v\) leaves no room for more$")
+            self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
+
     def test_a_signal_while_writing(self):
         """A pipe that nobody reads holds the program in the middle of its second output; the first is temporary."""
         for name in ["SIGINT", "SIGTERM", "SIGHUP"]:
