@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The limit on memory: the same mesh within it, and what is said where it cannot be kept.
+"""Limits on memory: the same mesh within them, and what is said where they cannot be kept.
 
     tests/cli/memory_test.py --program build/bin/gaussmesh --data data [CLASS...]
 """
@@ -67,6 +67,18 @@ class Memory(CliTest):
         self.assertEqual(result.returncode, BAD_INPUT)
         self.assertIn("max-memory: 8 TiB of addresses for the temporary file cannot be had, see ulimit -v: ",
                       result.stderr)
+
+    def test_fewer_threads_than_asked_for(self):
+        """Stacks of 1 GiB in 4 GiB of addresses."""
+        run = f"ulimit -s {1 << 20}; ulimit -v {4 << 20}; exec {settings.program} "
+        self.expect(0, self.molecule("dmso"), "-o", self.mesh)
+        for command in (f"{self.molecule('dmso')} -o a.off --threads 20", f"convert {self.mesh} a.off"):
+            result = subprocess.run(["bash", "-c", run + command], cwd=self.folder, capture_output=True, text=True,
+                                    check=False, env={**os.environ, "OMP_NUM_THREADS": "20"})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stderr, "^gaussmesh: warning: expected to start 20 threads, got [1-4]; a limit on "
+                                            r"processes or memory \(ulimit -u, -v\) leaves no room for more$")
+            self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("mke2fs"), "mounting is for root")
     def test_says_that_a_disk_is_full_that_sets_no_room_aside(self):
