@@ -82,8 +82,7 @@ std::uint32_t GaussianField::build(std::vector<WeightedCentre>& atoms, std::uint
 }
 
 void GaussianField::collect_near(const Box& box, NearAtoms& near, double cut) const {
-  near.clear();
-  near.cut = cut;
+  near.clear(cut);
   thread_local std::vector<std::uint32_t> kept;
   thread_local std::vector<double> exponents;  // of the atoms in the leaves visited
   std::size_t count = 0, visited = 0;

@@ -10,7 +10,8 @@
 namespace gaussmesh {
 namespace {
 
-/// Exponents are differences of numbers up to 1e12 (the limits of coordinates and radii): a slack for their rounding.
+/// Exponents are differences of numbers that the limits of decays, radii and coordinates keep below 1e13 (w) and 2e16
+/// (d dist^2), each rounded half a dozen times: a slack relative to both.
 inline double exponent_slack(double w, double decay_times_sq) { return 1e-15 * (std::abs(w) + decay_times_sq) + 1e-12; }
 
 /// The same of exponents down to -size, of atoms with |log-weight| at most `largest_w`.
@@ -106,8 +107,9 @@ void largest_exponents(const WeightedCentres& atoms, std::size_t first, std::siz
                decay, box.lo.data(), box.hi.data(), exponent);
 }
 
-void NearAtoms::clear() {
+void NearAtoms::clear(double new_cut) {
   size_ = 0;
+  cut = new_cut;
   tail = tail_slope = w_size = 0.0;
   lo = {kEmptyLo, kEmptyLo, kEmptyLo};
   hi = {-kEmptyLo, -kEmptyLo, -kEmptyLo};
@@ -150,8 +152,7 @@ void NearAtoms::add_to_tail(const double* exponent, std::size_t n, double larges
 }
 
 void NearAtoms::restrict_from(const NearAtoms& parent, const Box& box, double decay, double new_cut) {
-  clear();
-  cut = new_cut;
+  clear(new_cut);
   tail = parent.tail;
   tail_slope = parent.tail_slope;
   thread_local std::vector<double> exponent;

@@ -40,7 +40,9 @@ class NearAtoms : public WeightedCentres {
 
   std::size_t size() const { return size_; }
   std::size_t padded() const { return (size_ + kLanes - 1) / kLanes * kLanes; }
-  void clear();
+
+  /// Becomes an empty list for this cut; nothing is left out yet.
+  void clear(double new_cut);
 
   /// Becomes the `chosen` ones of some atoms; nothing is left out yet. Room for padded() is made in `chosen`.
   void take(const WeightedCentres& atoms, std::vector<std::uint32_t>& chosen, std::size_t count);
@@ -49,7 +51,7 @@ class NearAtoms : public WeightedCentres {
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
   /// Accounts for the atoms left out of `n` with |log-weight| at most `largest_w`: those whose largest exponents are
-  /// below -cut. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with r from w - E = 1/2 on; the sum
+  /// below -cut, the one that clear() was given. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with r from w - E = 1/2 on; the sum
   /// of the slopes is at most 2 sqrt(d sum e^E sum (w - E) e^E), by Cauchy and Schwarz.
   void add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay);
 
@@ -78,7 +80,7 @@ inline bool is_tail_felt(const NearAtoms& atoms, double slope) { return !(atoms.
 
 /// Bounds of phi / c over a box from the atoms' distances alone: good for boxes larger than an atom.
 struct CrudeBounds {
-  double upper = 0.0;   ///< phi / c is at most this
+  double upper = 0.0;   ///< phi / c is at most this where that is below e^700: exponentials end there
   bool inside = false;  ///< one atom alone has phi_i > c everywhere in the box
 };
 CrudeBounds crude_bounds(const NearAtoms& atoms, const Box& box, double decay);

@@ -34,7 +34,7 @@ struct MeshVertices {
   std::vector<Vec3> at;  ///< A, whole units
   std::vector<Normal> normal;
   std::vector<float> size;        ///< wanted edge (A)
-  std::vector<float> curvature;   ///< larger principal one (1/A) in absolute value; negative: not yet known
+  std::vector<float> curvature;   ///< what of it counts for the size (1/A), as size_field.cpp says; negative: unknown
   std::vector<float> refinement;  ///< factor of the size where neighbouring triangles turned too far
 
   /// Calls visit(array) for each of them.
