@@ -12,11 +12,12 @@
 namespace gaussmesh::verify {
 
 /// Calls worker(i) for i = 0 .. count - 1, in any order; each call writes to its own slot only. Each thread has a
-/// worker of its own from make_worker(), which keeps buffers from slot to slot. When calls throw, one of the
-/// exceptions is thrown again.
+/// worker of its own from make_worker(), which keeps buffers from slot to slot. When calls throw, the
+/// exception of the smallest i is thrown again, whatever the number of threads.
 template <class MakeWorker>
 void parallel_for_workers(std::size_t count, const MakeWorker& make_worker) {
   std::exception_ptr error;
+  std::size_t error_at = count;
 #pragma omp parallel
   {
     std::optional<std::invoke_result_t<const MakeWorker&>> worker;
@@ -28,7 +29,10 @@ void parallel_for_workers(std::size_t count, const MakeWorker& make_worker) {
       } catch (...) {
         worker.reset();  // it may have been left in the middle of something
 #pragma omp critical(gaussmesh_verify_error)
-        error = std::current_exception();
+        if (i < error_at) {
+          error_at = i;
+          error = std::current_exception();
+        }
       }
     }
   }
