@@ -111,7 +111,10 @@ struct MeshResult {
 /// @throws OptionError      if an option is out of its range, or there is a tolerance for a mesh as traced
 /// @throws InputError       if there are no atoms, or one with a coordinate or radius that cannot be
 /// @throws CannotMeshError  if phi < c everywhere, if the tolerance is not reached, if c is so near a critical value
-///                          that the topology is not certain, or if the mesh is too large for the memory or for arrays
+///                          that the topology is not certain; if the cells are too coarse for the surface, or it goes
+///                          through one of them, or a brick of them, too often to be counted; if double precision
+///                          cannot tell how the surface meets the lattice, wherever that lies; if the mesh is too
+///                          large for the memory, or has more than 2^31 vertices or triangles
 /// @throws InternalError    if the mesh is not what is promised here: nothing of it is given out
 MeshResult mesh_surface(const std::vector<Atom>& atoms, const MeshOptions& options);
 

@@ -20,9 +20,9 @@ struct VertexData {
 /// The atom nearest to each vertex in the measure of the field: that of the smallest |x - x_i|^2 - r_i^2, which
 /// gives the largest share of phi for any decay. Of equal ones the first.
 ///
-/// @param mesh   finite coordinates
-/// @param atoms  at least one
+/// @param mesh     finite coordinates
 /// @param threads  0: one for each processor
+/// @throws OptionError if there is no atom
 ///
 /// Cost: the atoms near each vertex, about 0.5 us a vertex. The answer does not depend on the number of threads.
 std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads);

@@ -52,6 +52,8 @@ class OutputFiles {
   ///
   /// Vertex data that are not known are left out; normals and, for MSMS, all of them are replaced as write_mesh()
   /// says.
+  /// @param mesh  every vertex number is there
+  /// @param data  each list has one entry for each vertex of the mesh, or is empty
   /// @throws OptionError if the format is unknown, or cannot go to standard output
   /// @throws InputError  if a file cannot be written
   ///
@@ -71,7 +73,7 @@ class OutputFiles {
   std::unique_ptr<State> state_;
 };
 
-/// Writes one mesh by OutputFiles.
+/// Writes one mesh by OutputFiles, whose add_mesh() says what is asked of mesh and data.
 ///
 /// | format | what is written of the vertex data |
 /// |---|---|

@@ -1,8 +1,9 @@
 #include "gaussmesh/vertex_data.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/parallel.h"
+#include "gaussmesh/error.h"
 #include "verify/atom_tree.h"
 #include "verify/vector3.h"
 
@@ -11,6 +12,7 @@ namespace gaussmesh {
 using namespace verify;
 
 std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads) {
+  if (atoms.empty()) throw OptionError("atoms: expected at least one, got 'none'");
   constexpr std::size_t kBlock = 1024;
   const AtomTree tree(atoms);
   std::vector<std::uint32_t> nearest(mesh.vertices.size());

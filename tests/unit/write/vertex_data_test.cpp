@@ -1,6 +1,7 @@
 #include "gaussmesh/vertex_data.h"
 
 #include "catch2.h"
+#include "gaussmesh/error.h"
 #include "support/random.h"
 #include "unit/verify/shapes.h"
 
@@ -26,6 +27,10 @@ TEST_CASE("nearest atoms are those of the largest share of phi, by comparison wi
     for (const Atom& a : atoms) least = std::min(least, power(a));
     REQUIRE(power(atoms[nearest[v]]) == Approx(least).margin(1e-9));
   }
+}
+
+TEST_CASE("nothing is nearest where there are no atoms: that is said") {
+  CHECK_THROWS_AS(find_nearest_atoms(shapes::cube(1), {}, 1), OptionError);
 }
 
 TEST_CASE("vertices are of the component of their triangles") {
