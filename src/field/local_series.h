@@ -3,7 +3,6 @@
 // What they mean is local_model.h; who asks is model_view.cpp.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>

@@ -1,6 +1,5 @@
 #include "field/point_value.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "improve/close_sheets.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/lattice_degenerate.h"
 #include "patch/triangle_shape.h"
 
 namespace gaussmesh {

@@ -1,6 +1,5 @@
 #include "verify/flat_fans.h"
 
-#include <algorithm>
 #include <span>
 
 #include "verify/exact_orientation.h"
