@@ -1,7 +1,6 @@
 #include "patch/fold_curve.h"
 
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "field/point_value.h"
 
@@ -50,12 +49,6 @@ bool is_in(const Box& box, const Vector3d& p) {
 }
 
 }  // namespace
-
-std::optional<Vec3> project_to_fold(const NearAtoms& atoms, double decay, const Vec3& near, int axis) {
-  const auto p = correct(atoms, decay, Vector3d(near[0], near[1], near[2]), axis, 0.5 / std::sqrt(decay));
-  if (!p) return std::nullopt;
-  return Vec3{(*p)[0], (*p)[1], (*p)[2]};
-}
 
 std::optional<FoldCurve> follow_fold(const NearAtoms& atoms, double decay, const Box& box, const Vec3& start,
                                      int axis) {

@@ -22,7 +22,4 @@ struct FoldCurve {
 /// Cost: some 5 sums over the atoms for each step of a sixteenth of the box.
 std::optional<FoldCurve> follow_fold(const NearAtoms& atoms, double decay, const Box& box, const Vec3& start, int axis);
 
-/// Moves a point near a fold curve onto it. @return nothing if Newton's method does not converge nearby
-std::optional<Vec3> project_to_fold(const NearAtoms& atoms, double decay, const Vec3& near, int axis);
-
 }  // namespace gaussmesh
