@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "field/near_atoms.h"
+#include "catch2.h"
+#include "field/gaussian_field.h"
 #include "support/exact_field.h"
 #include "support/sampling.h"
 
@@ -50,6 +51,29 @@ inline NearAtoms list_of(const WeightedCentres& atoms) {
   return list;
 }
 
-inline constexpr double kDecays[] = {0.4, 0.6, 1.0, 2.0};
+inline const std::vector<double> kDecays = {0.4, 0.6, 1.0, 2.0};
+inline constexpr double kIsovalue = 1.3;
+
+/// A molecule and its field, for random questions to it.
+struct FieldCase {
+  const FieldSample& sample;
+  GaussianField field;
+  ExactField exact;
+  Random& random;
+};
+
+/// Calls visit(FieldCase) for each of field_samples(seed) with each of the decays and kIsovalue. All of them take their
+/// random numbers from one row, which starts with the seed.
+template <typename Visit>
+void for_each_field(std::uint64_t seed, const std::vector<double>& decays, const Visit& visit) {
+  CAPTURE(seed);
+  Random random(seed);
+  for (const FieldSample& sample : field_samples(seed)) {
+    for (const double decay : decays) {
+      CAPTURE(sample.what, decay);
+      visit(FieldCase{sample, {sample.atoms, decay, kIsovalue}, {sample.atoms, decay, kIsovalue}, random});
+    }
+  }
+}
 
 }  // namespace gaussmesh::testing

@@ -82,13 +82,8 @@ TEST_CASE("no certificate is refuted by a dense look at its cell") {
 }
 
 TEST_CASE("cells with radii of 35 and 1000 A have certificates that hold") {
-  const std::uint64_t seed = 43;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const GaussianField field(sample.atoms, 0.6, 1.3);
-    const ExactField exact(sample.atoms, 0.6, 1.3);
+  for_each_field(43, {0.6}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     std::size_t certified = 0;
     for (int i = 0; i < 60; ++i) {
       const Box box = box_around(random_point(random, sample.room), 0.2);
@@ -97,7 +92,7 @@ TEST_CASE("cells with radii of 35 and 1000 A have certificates that hold") {
       REQUIRE(refute(certificate, exact, box, 7) == "");
     }
     CHECK(certified > 50);
-  }
+  });
 }
 
 TEST_CASE("on a sphere the axis of the certificate is one that the sphere is single-valued along") {

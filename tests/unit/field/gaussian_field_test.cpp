@@ -13,8 +13,6 @@ using namespace gaussmesh::testing;
 
 namespace {
 
-constexpr double kIsovalue = 1.3;
-
 /// The atoms that are not in the list, told by their centres.
 std::vector<Atom> left_out(const std::vector<Atom>& atoms, const NearAtoms& near) {
   std::map<std::tuple<double, double, double>, int> kept;
@@ -59,24 +57,18 @@ bool same_bits(const NearAtoms& a, const NearAtoms& b) {
 }  // namespace
 
 TEST_CASE("the atoms left out add no more than the tail to the field and its slope") {
-  const std::uint64_t seed = 11;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t out = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 100; ++i) {
-        const Box box = random_box(random, sample.room, 0.01, 4.0);
-        const double cut = random.uniform(-2.0, 40.0);
-        CAPTURE(decay, cut);
-        NearAtoms near;
-        field.collect_near(box, near, cut);
-        out += check_tail(sample.atoms, decay, near, box, random);
-      }
+  for_each_field(11, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 100; ++i) {
+      const Box box = random_box(random, sample.room, 0.01, 4.0);
+      const double cut = random.uniform(-2.0, 40.0);
+      CAPTURE(cut);
+      NearAtoms near;
+      field.collect_near(box, near, cut);
+      out += check_tail(sample.atoms, field.decay(), near, box, random);
     }
-  }
+  });
   CHECK(out > 10000);
 }
 
@@ -124,25 +116,20 @@ TEST_CASE("among many atoms the tail is not much more than they can add") {
 }
 
 TEST_CASE("restricting a list to a part of its box keeps the bound") {
-  const std::uint64_t seed = 13;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const double decay = 0.8;
-    const GaussianField field(sample.atoms, decay, kIsovalue);
+  for_each_field(13, {0.8}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     for (int i = 0; i < 50; ++i) {
       const Box box = random_box(random, sample.room, 0.5, 6.0);
       const Box part = random_part(random, box, 0.2);
       NearAtoms parent, child, direct;
       const double cut = random.uniform(1.0, 25.0);
       field.collect_near(box, parent, cut);
-      child.restrict_from(parent, part, decay, cut);
-      check_tail(sample.atoms, decay, child, part, random);
+      child.restrict_from(parent, part, field.decay(), cut);
+      check_tail(sample.atoms, field.decay(), child, part, random);
       field.collect_near(part, direct, cut);
       CHECK(child.size() == direct.size());
     }
-  }
+  });
 }
 
 TEST_CASE("with no cut every atom is in the list, with its log-weight") {
@@ -189,32 +176,25 @@ TEST_CASE("lists have the same bits for any order of the atoms in the file") {
 }
 
 TEST_CASE("crude bounds hold at every point of the box") {
-  const std::uint64_t seed = 16;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t inside = 0, outside = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 100; ++i) {
-        Box room = sample.room;
-        for (int k = 0; k < 3; ++k) room.lo[k] -= 5.0, room.hi[k] += 5.0;
-        const Box box = random_box(random, room, 0.1, 6.0);
-        NearAtoms near;
-        field.collect_near(box, near);
-        const CrudeBounds bounds = crude_bounds(near, box, decay);
-        inside += bounds.inside;
-        outside += bounds.upper < 1.0;
-        for (const Vec3& p : grid_points(box, 4)) {
-          const long double psi = exact.psi(p);
-          if (psi < 600.0L) REQUIRE(std::exp(psi) <= bounds.upper);  // beyond, upper is clamped and large anyway
-          if (bounds.inside) REQUIRE(psi > 0.0L);
-        }
+  for_each_field(16, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 100; ++i) {
+      Box room = sample.room;
+      for (int k = 0; k < 3; ++k) room.lo[k] -= 5.0, room.hi[k] += 5.0;
+      const Box box = random_box(random, room, 0.1, 6.0);
+      NearAtoms near;
+      field.collect_near(box, near);
+      const CrudeBounds bounds = crude_bounds(near, box, field.decay());
+      inside += bounds.inside;
+      outside += bounds.upper < 1.0;
+      for (const Vec3& p : grid_points(box, 4)) {
+        const long double psi = exact.psi(p);
+        if (psi < 600.0L) REQUIRE(std::exp(psi) <= bounds.upper);  // beyond, upper is clamped and large anyway
+        if (bounds.inside) REQUIRE(psi > 0.0L);
       }
     }
-  }
+  });
   CHECK(inside > 50);
   CHECK(outside > 50);
 }
@@ -233,22 +213,16 @@ TEST_CASE("crude bounds of one atom are its values at the nearest and the farthe
 }
 
 TEST_CASE("there is no surface outside the bounding box") {
-  const std::uint64_t seed = 17;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      const Box bounds = GaussianField(sample.atoms, decay, kIsovalue).bounding_box();
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 300; ++i) {
-        Vec3 p = random_point(random, bounds);
-        const auto axis = random.integer(0, 2);
-        p[axis] = random.integer(0, 1) ? bounds.hi[axis] : bounds.lo[axis];
-        REQUIRE(exact.psi(p) < 0.0L);
-      }
+  for_each_field(17, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    const Box bounds = field.bounding_box();
+    for (int i = 0; i < 300; ++i) {
+      Vec3 p = random_point(random, bounds);
+      const auto axis = random.integer(0, 2);
+      p[axis] = random.integer(0, 1) ? bounds.hi[axis] : bounds.lo[axis];
+      REQUIRE(exact.psi(p) < 0.0L);
     }
-  }
+  });
   // And it is no larger than it must be: one atom's is its sphere, but for the share of 1 / n.
   const Box bounds = GaussianField({{1, 2, 3, 2.0, 0}}, 0.5, 1.0).bounding_box();
   CHECK(bounds.hi[0] - 1.0 < sphere_radius(2.0, 0.5, 0.5) + 1e-3);

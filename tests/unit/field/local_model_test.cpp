@@ -1,5 +1,7 @@
 #include "field/local_model.h"
 
+#include <cmath>
+
 #include "catch2.h"
 #include "field/gaussian_field.h"
 #include "support/fields.h"
@@ -8,8 +10,6 @@ using namespace gaussmesh;
 using namespace gaussmesh::testing;
 
 namespace {
-
-constexpr double kIsovalue = 1.3;
 
 /// A box of the model and a part of it that the view is over.
 struct Question {
@@ -87,158 +87,127 @@ Widths widths_around(const GaussianField& field, const ExactField& exact, const 
 }  // namespace
 
 TEST_CASE("value() contains the exact values over boxes, parts and flat parts") {
-  const std::uint64_t seed = 31;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t finite = 0, decided = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      CAPTURE(decay);
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 300; ++i) {
-        const auto [box, part] = random_question(random, sample, exact);
-        NearAtoms near;
-        field.collect_near(box, near, random.uniform(1.0, 25.0));
-        const LocalModel model(near, decay, box);
-        const Range range = model.over(part).value();
-        finite += range.hi - range.lo < 100.0;
-        decided += range.lo > 0.0 || range.hi < 0.0;
-        for (const Vec3& p : points_of(random, part)) {
-          const long double psi = exact.psi(p);
-          REQUIRE(range.lo <= psi);
-          REQUIRE(psi <= range.hi);
-        }
+  for_each_field(31, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 300; ++i) {
+      const auto [box, part] = random_question(random, sample, exact);
+      NearAtoms near;
+      field.collect_near(box, near, random.uniform(1.0, 25.0));
+      const LocalModel model(near, field.decay(), box);
+      const Range range = model.over(part).value();
+      finite += range.hi - range.lo < 100.0;
+      decided += range.lo > 0.0 || range.hi < 0.0;
+      for (const Vec3& p : points_of(random, part)) {
+        const long double psi = exact.psi(p);
+        REQUIRE(range.lo <= psi);
+        REQUIRE(psi <= range.hi);
       }
     }
-  }
+  });
   CHECK(finite > 3000);
   CHECK(decided > 1000);
 }
 
 TEST_CASE("slope() has the sign of the exact slope wherever the surface is") {
-  const std::uint64_t seed = 32;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t claims = 0, slanted_claims = 0, points = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      CAPTURE(decay);
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 150; ++i) {
-        const auto [box, part] = random_question(random, sample, exact);
-        NearAtoms near;
-        field.collect_near(box, near, random.uniform(5.0, 25.0));
-        const LocalModel model(near, decay, box);
-        const LocalModel::View view = model.over(part);
-        std::vector<Vec3> inside, outside;
-        for (const Vec3& p : points_of(random, part)) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
-        for (const Direction& direction : some_directions(random)) {
-          const Range slope = view.slope(direction);
-          const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
-          if (sign == 0) continue;
-          ++claims;
-          slanted_claims += direction.is_slanted();
-          for (std::size_t n = 0; n < std::min({inside.size(), outside.size(), std::size_t{10}}); ++n) {
-            const Vec3 on_surface = surface_between(exact, inside[n], outside[n]);
-            REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
-            ++points;
-          }
+  for_each_field(32, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 150; ++i) {
+      const auto [box, part] = random_question(random, sample, exact);
+      NearAtoms near;
+      field.collect_near(box, near, random.uniform(5.0, 25.0));
+      const LocalModel model(near, field.decay(), box);
+      const LocalModel::View view = model.over(part);
+      std::vector<Vec3> inside, outside;
+      for (const Vec3& p : points_of(random, part)) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
+      for (const Direction& direction : some_directions(random)) {
+        const Range slope = view.slope(direction);
+        const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
+        if (sign == 0) continue;
+        ++claims;
+        slanted_claims += direction.is_slanted();
+        for (std::size_t n = 0; n < std::min({inside.size(), outside.size(), std::size_t{10}}); ++n) {
+          const Vec3 on_surface = surface_between(exact, inside[n], outside[n]);
+          REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
+          ++points;
         }
       }
     }
-  }
+  });
   CHECK(claims > 1000);
   CHECK(slanted_claims > 500);
   CHECK(points > 5000);
 }
 
 TEST_CASE("without atoms left out slope() holds everywhere in the box, surface or not") {
-  const std::uint64_t seed = 33;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t claims = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 100; ++i) {
-        const auto [box, part] = random_question(random, sample, exact);
-        NearAtoms near;
-        field.collect_near(box, near, 1e9);
-        const LocalModel model(near, decay, box);
-        const LocalModel::View view = model.over(part);
-        for (const Direction& direction : some_directions(random)) {
-          const Range slope = view.slope(direction);
-          const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
-          claims += sign != 0;
-          for (const Vec3& p : points_of(random, part)) {
-            if (sign != 0) REQUIRE(along(exact.gradient(p), direction) * sign > 0.0);
-          }
+  for_each_field(33, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 100; ++i) {
+      const auto [box, part] = random_question(random, sample, exact);
+      NearAtoms near;
+      field.collect_near(box, near, 1e9);
+      const LocalModel model(near, field.decay(), box);
+      const LocalModel::View view = model.over(part);
+      for (const Direction& direction : some_directions(random)) {
+        const Range slope = view.slope(direction);
+        const int sign = slope.lo > 0.0 ? 1 : slope.hi < 0.0 ? -1 : 0;
+        claims += sign != 0;
+        for (const Vec3& p : points_of(random, part)) {
+          if (sign != 0) REQUIRE(along(exact.gradient(p), direction) * sign > 0.0);
         }
       }
     }
-  }
+  });
   CHECK(claims > 1000);
 }
 
 TEST_CASE("what is proven of parts side by side is what their views prove, and holds of the exact field") {
-  const std::uint64_t seed = 35;
-  CAPTURE(seed);
-  Random random(seed);
   std::size_t all = 0, alike = 0, free_parts = 0, claims = 0, points = 0;
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      CAPTURE(decay);
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 60; ++i) {
-        const Box box = random_question(random, sample, exact).box;
-        NearAtoms near;
-        field.collect_near(box, near, random.uniform(5.0, 25.0));
-        const LocalModel model(near, decay, box);
-        std::vector<Box> parts(static_cast<std::size_t>(random.integer(1, PartProofs::kMost)));
-        for (Box& part : parts) part = random_part(random, box, 0.3);
-        const PartProofs proofs = model.prove(parts);
-        const std::vector<Direction> directions = some_directions(random);
-        for (std::size_t n = 0; n < parts.size(); ++n) {
-          const LocalModel::View view = model.over(parts[n]);
-          all += 2;
-          alike += proofs.directions[n] == view.directions();
-          alike += proofs.is_surely_crossed[n] == view.is_surely_crossed();
-          std::vector<Vec3> inside, outside;
-          for (const Vec3& p : points_of(random, parts[n])) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
-          if (proofs.directions[n] == kAllDirections) {
-            ++free_parts;
-            REQUIRE((inside.empty() || outside.empty()));
-          }
-          for (Direction direction : directions) {
-            for (const int sign : {1, -1}) {
-              direction.sign = static_cast<std::int8_t>(sign);
-              const bool is_proven = model.prove_along(parts, direction) >> n & 1;
-              ++all;
-              alike += is_proven == view.proves(direction);
-              const bool is_axis = !direction.is_slanted();
-              if (is_axis) alike += is_proven == ((proofs.directions[n] >> (2 * direction.axis + (sign > 0)) & 1) != 0);
-              all += is_axis;
-              if (!is_proven) continue;
-              ++claims;
-              for (std::size_t p = 0; p < std::min({inside.size(), outside.size(), std::size_t{5}}); ++p) {
-                const Vec3 on_surface = surface_between(exact, inside[p], outside[p]);
-                REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
-                ++points;
-              }
+  for_each_field(35, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 60; ++i) {
+      const Box box = random_question(random, sample, exact).box;
+      NearAtoms near;
+      field.collect_near(box, near, random.uniform(5.0, 25.0));
+      const LocalModel model(near, field.decay(), box);
+      std::vector<Box> parts(static_cast<std::size_t>(random.integer(1, PartProofs::kMost)));
+      for (Box& part : parts) part = random_part(random, box, 0.3);
+      const PartProofs proofs = model.prove(parts);
+      const std::vector<Direction> directions = some_directions(random);
+      for (std::size_t n = 0; n < parts.size(); ++n) {
+        const LocalModel::View view = model.over(parts[n]);
+        all += 2;
+        alike += proofs.directions[n] == view.directions();
+        alike += proofs.is_surely_crossed[n] == view.is_surely_crossed();
+        std::vector<Vec3> inside, outside;
+        for (const Vec3& p : points_of(random, parts[n])) (exact.psi(p) >= 0.0L ? inside : outside).push_back(p);
+        if (proofs.directions[n] == kAllDirections) {
+          ++free_parts;
+          REQUIRE((inside.empty() || outside.empty()));
+        }
+        for (Direction direction : directions) {
+          for (const int sign : {1, -1}) {
+            direction.sign = static_cast<std::int8_t>(sign);
+            const bool is_proven = model.prove_along(parts, direction) >> n & 1;
+            ++all;
+            alike += is_proven == view.proves(direction);
+            const bool is_axis = !direction.is_slanted();
+            if (is_axis) alike += is_proven == ((proofs.directions[n] >> (2 * direction.axis + (sign > 0)) & 1) != 0);
+            all += is_axis;
+            if (!is_proven) continue;
+            ++claims;
+            for (std::size_t p = 0; p < std::min({inside.size(), outside.size(), std::size_t{5}}); ++p) {
+              const Vec3 on_surface = surface_between(exact, inside[p], outside[p]);
+              REQUIRE(along(exact.gradient(on_surface), direction) * sign > 0.0);
+              ++points;
             }
           }
         }
       }
     }
-  }
+  });
   CHECK(static_cast<double>(all - alike) <= 1e-3 * static_cast<double>(all));  // roundings may tip the scales
   CHECK(free_parts > 300);
   CHECK(claims > 1000);
@@ -341,12 +310,8 @@ TEST_CASE("bounds tighten as boxes halve: the width in the first order, what is 
 }
 
 TEST_CASE("a model of a point is exact to rounding") {
-  const std::uint64_t seed = 36;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const GaussianField field(sample.atoms, 0.6, kIsovalue);
+  for_each_field(36, {0.6}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     const double rounding = sample.what == "radii of 1000 A" ? 1e-6 : 1e-9;
     for (int i = 0; i < 20; ++i) {
       const Vec3 p = random_point(random, sample.room);
@@ -355,7 +320,7 @@ TEST_CASE("a model of a point is exact to rounding") {
       const Range range = LocalModel(near, 0.6, {p, p}).over_all().value();
       CHECK(range.hi - range.lo < rounding);
     }
-  }
+  });
 }
 
 TEST_CASE("where no atom counts only the tail is left") {

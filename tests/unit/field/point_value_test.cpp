@@ -9,31 +9,22 @@ using namespace gaussmesh::testing;
 
 namespace {
 
-constexpr double kIsovalue = 1.3;
 constexpr double kAllAtoms = 1e9;  // a cut that leaves nothing out
 
 }  // namespace
 
 TEST_CASE("the value at a point is good to the error that it states") {
-  const std::uint64_t seed = 21;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      CAPTURE(decay);
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 300; ++i) {
-        const Vec3 p = random_point(random, sample.room);
-        NearAtoms near;
-        field.collect_near({p, p}, near, kAllAtoms);
-        const PointValue value = evaluate(near, decay, p);
-        const double error = static_cast<double>(std::abs(exact.psi(p) - value.value));
-        REQUIRE(error <= value.error);
-      }
+  for_each_field(21, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = random_point(random, sample.room);
+      NearAtoms near;
+      field.collect_near({p, p}, near, kAllAtoms);
+      const PointValue value = evaluate(near, field.decay(), p);
+      const double error = static_cast<double>(std::abs(exact.psi(p) - value.value));
+      REQUIRE(error <= value.error);
     }
-  }
+  });
 }
 
 TEST_CASE("stated errors are small: 1e-13 for usual radii") {
@@ -48,43 +39,32 @@ TEST_CASE("stated errors are small: 1e-13 for usual radii") {
 }
 
 TEST_CASE("the gradient agrees with the formula and with differences of the value") {
-  const std::uint64_t seed = 23;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    if (sample.what == "at 10^6 A" || sample.what == "radii of 1000 A") continue;  // differences are not worth much
-    CAPTURE(sample.what);
-    for (const double decay : kDecays) {
-      const GaussianField field(sample.atoms, decay, kIsovalue);
-      const ExactField exact(sample.atoms, decay, kIsovalue);
-      for (int i = 0; i < 50; ++i) {
-        const Vec3 p = random_point(random, sample.room);
-        NearAtoms near;
-        field.collect_near({p, p}, near, kAllAtoms);
-        const PointValue value = evaluate(near, decay, p);
-        const auto gradient = exact.gradient(p);
-        for (int k = 0; k < 3; ++k) {
-          CHECK(value.gradient[k] == Approx(static_cast<double>(gradient[k])).margin(1e-10));
-          Vec3 before = p, after = p;
-          before[k] -= 1e-5;
-          after[k] += 1e-5;
-          const double difference =
-              (evaluate(near, decay, after).value - evaluate(near, decay, before).value) / (after[k] - before[k]);
-          CHECK(value.gradient[k] == Approx(difference).margin(1e-4));
-        }
+  for_each_field(23, kDecays, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
+    if (sample.what == "at 10^6 A" || sample.what == "radii of 1000 A") return;  // differences are not worth much
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 p = random_point(random, sample.room);
+      NearAtoms near;
+      field.collect_near({p, p}, near, kAllAtoms);
+      const PointValue value = evaluate(near, field.decay(), p);
+      const auto gradient = exact.gradient(p);
+      for (int k = 0; k < 3; ++k) {
+        CHECK(value.gradient[k] == Approx(static_cast<double>(gradient[k])).margin(1e-10));
+        Vec3 before = p, after = p;
+        before[k] -= 1e-5;
+        after[k] += 1e-5;
+        const double difference =
+            (evaluate(near, field.decay(), after).value - evaluate(near, field.decay(), before).value) /
+            (after[k] - before[k]);
+        CHECK(value.gradient[k] == Approx(difference).margin(1e-4));
       }
     }
-  }
+  });
 }
 
 TEST_CASE("side_of: what it claims is so, and it claims it at all but a sliver of points") {
-  const std::uint64_t seed = 24;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const GaussianField field(sample.atoms, 0.6, kIsovalue);
-    const ExactField exact(sample.atoms, 0.6, kIsovalue);
+  for_each_field(24, {0.6}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     int unknown = 0;
     for (int i = 0; i < 1000; ++i) {
       const Vec3 p = random_point(random, sample.room);
@@ -96,7 +76,7 @@ TEST_CASE("side_of: what it claims is so, and it claims it at all but a sliver o
       unknown += side == Side::kUnknown;
     }
     CHECK(unknown < 300);  // a cut of 0 leaves out atoms that count
-  }
+  });
 }
 
 TEST_CASE("next to the surface the side is still told, a hundred roundings away") {

@@ -211,13 +211,8 @@ TEST_CASE("edges of many sizes through clouds have the roots that a dense look a
 }
 
 TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A") {
-  const std::uint64_t seed = 53;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const GaussianField field(sample.atoms, 0.6, 1.3);
-    const ExactField exact(sample.atoms, 0.6, 1.3);
+  for_each_field(53, {0.6}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     const double limit = sample.what == "radii of 1000 A" ? 1e-7 : 0.6e-9;
     std::size_t found = 0;
     for (int i = 0; i < 100; ++i) {
@@ -238,7 +233,7 @@ TEST_CASE("roots are good to rounding with radii of 35 and 1000 A and at 10^6 A"
       }
     }
     CHECK(found > 10);
-  }
+  });
 }
 
 TEST_CASE("roots are good to rounding on the crease between two spheres of 1000 A, where the slope turns in 0.001 A") {
@@ -294,13 +289,8 @@ TEST_CASE("a root is on the side of a lattice plane where it is by all atoms, al
 }
 
 TEST_CASE("is_inside is right at every point, near the surface too") {
-  const std::uint64_t seed = 54;
-  CAPTURE(seed);
-  Random random(seed);
-  for (const FieldSample& sample : field_samples(seed)) {
-    CAPTURE(sample.what);
-    const GaussianField field(sample.atoms, 0.6, 1.3);
-    const ExactField exact(sample.atoms, 0.6, 1.3);
+  for_each_field(54, {0.6}, [&](const FieldCase& c) {
+    const auto& [sample, field, exact, random] = c;
     for (int i = 0; i < 300; ++i) {
       Vec3 p = random_point(random, sample.room);
       const Vec3 q = random_point(random, sample.room);
@@ -315,7 +305,7 @@ TEST_CASE("is_inside is right at every point, near the surface too") {
       field.collect_near(box, near);
       REQUIRE(is_inside(field, near, LocalModel(near, 0.6, box), p) == (psi >= 0.0L));
     }
-  }
+  });
 }
 
 TEST_CASE("a point exactly on the surface cannot be told: that is reported, not guessed") {

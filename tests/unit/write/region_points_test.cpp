@@ -4,10 +4,7 @@
 #include "unit/verify/shapes.h"
 
 using namespace gaussmesh;
-using shapes::cube;
-using shapes::moved;
-using shapes::together;
-using shapes::turned;
+using namespace gaussmesh::shapes;
 
 namespace {
 
