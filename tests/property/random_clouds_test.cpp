@@ -1,5 +1,5 @@
-// Molecules of any kind: the mesh is fit for a solver, and its topology depends neither on the spacing nor on how
-// the molecule is turned.
+// Molecules of any kind: the mesh is fit for a solver, and its topology depends neither on the spacing, nor on how
+// the molecule is turned, nor on whether triangles are improved.
 #include <string>
 
 #include "catch2.h"
@@ -50,22 +50,29 @@ struct Outcome {
   std::vector<Piece> pieces;
   std::size_t folds = 0;
   std::size_t splits = 0;
+  double fraction_under_30 = 0.0;
 };
 
-Outcome mesh(const std::vector<Atom>& atoms, const Problem& problem, double spacing) {
+Outcome mesh(const std::vector<Atom>& atoms, const MeshOptions& options) {
   try {
-    const MeshResult result = mesh_surface(atoms, options(problem.decay, problem.isovalue, spacing));
-    CHECK(result.report.certified);
-    CHECK(result.report.check.fit_for_solver());
-    CHECK(result.report.vertex_distance_max < 1e-6);
-    return {Outcome::Kind::kMeshed, topology(result), result.report.cells_cut_by_folds, result.report.cells_split};
+    const MeshResult result = mesh_surface(atoms, options);
+    const MeshReport& report = result.report;
+    CHECK(report.certified);
+    CHECK(report.check.fit_for_solver());
+    CHECK(report.vertex_distance_max < 1e-6);
+    return {Outcome::Kind::kMeshed, topology(result), report.cells_cut_by_folds, report.cells_split,
+            report.check.fraction_under_30_deg};
   } catch (const CannotMeshError& error) {
     const std::string message = error.what();
-    if (message.find("nothing to mesh") != std::string::npos) return {Outcome::Kind::kNothing, {}, 0, 0};
+    if (message.find("nothing to mesh") != std::string::npos) return {Outcome::Kind::kNothing, {}};
     INFO(message);
     CHECK(message.find("critical value") != std::string::npos);
-    return {Outcome::Kind::kCritical, {}, 0, 0};
+    return {Outcome::Kind::kCritical, {}};
   }
+}
+
+Outcome mesh_as_traced(const std::vector<Atom>& atoms, const Problem& problem, double spacing) {
+  return mesh(atoms, options(problem.decay, problem.isovalue, spacing));
 }
 
 /// What a test has seen in all, so that it can tell that it looked at something.
@@ -74,20 +81,24 @@ struct Seen {
   int nothing = 0;
   std::size_t folds = 0;
   std::size_t splits = 0;
+  int with_small_angles = 0;  ///< improved meshes
 };
 
 void check_problem(const Problem& problem, Random& random, Seen& seen) {
   CAPTURE(problem.decay, problem.isovalue, problem.spacing, problem.other_spacing);
-  const Outcome first = mesh(problem.atoms, problem, problem.spacing);
+  const Outcome first = mesh_as_traced(problem.atoms, problem, problem.spacing);
   CHECK(first.kind != Outcome::Kind::kCritical);
-  const Outcome other = mesh(problem.atoms, problem, problem.other_spacing);
-  const Outcome rotated = mesh(turned(problem.atoms, random), problem, problem.spacing);
-  for (const Outcome* o : {&other, &rotated}) {
+  const Outcome other = mesh_as_traced(problem.atoms, problem, problem.other_spacing);
+  const Outcome rotated = mesh_as_traced(turned(problem.atoms, random), problem, problem.spacing);
+  const Outcome finished = mesh(problem.atoms, improved(problem.decay, problem.isovalue, problem.spacing));
+  for (const Outcome* o : {&other, &rotated, &finished}) {
     CHECK((o->kind == first.kind));
     CHECK((o->pieces == first.pieces));
-    seen.folds += o->folds;
-    seen.splits += o->splits;
   }
+  seen.folds += other.folds + rotated.folds;
+  seen.splits += other.splits + rotated.splits;
+  CHECK(finished.fraction_under_30 < 0.02);  // where a surface is finer than triangles may be
+  seen.with_small_angles += finished.fraction_under_30 > 0.0;
   seen.meshed += first.kind == Outcome::Kind::kMeshed;
   seen.nothing += first.kind == Outcome::Kind::kNothing;
 }
@@ -118,6 +129,7 @@ Seen run(std::uint64_t first_seed, int count, const Make& make) {
     make(random, problem);
     check_problem(problem, random, seen);
   }
+  CHECK(10 * seen.with_small_angles <= seen.meshed);
   return seen;
 }
 
@@ -267,7 +279,7 @@ TEST_CASE("necks and tunnels close to critical, by 10^-2 to 10^-7 of c") {
     for (const int side : {0, 1}) {
       problem.isovalue = critical * (side == 0 ? 1.0 - change : 1.0 + change);
       check_problem(problem, random, seen);
-      pieces[side] = mesh(problem.atoms, problem, 0.7).pieces;
+      pieces[side] = mesh_as_traced(problem.atoms, problem, 0.7).pieces;
     }
     CHECK((pieces[0] != pieces[1]));
   }

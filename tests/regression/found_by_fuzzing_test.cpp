@@ -74,9 +74,37 @@ TEST_CASE("a level beside one that cannot be certified has a surface") {
   CHECK(topology(result) == std::vector<Piece>{{0, false}});
 }
 
+TEST_CASE("the neck of a level beside one that cannot be certified has triangles as small as it needs") {
+  const double decay = 0.6, radius = 4.0, distance = 8.4;
+  const std::vector<Atom> atoms = {{0.3, 0.2, 0.1, radius, 0}, {0.3 + distance, 0.2, 0.1, radius, 0}};
+  MeshOptions o = improved(decay, 2.0 * std::exp(-decay * (0.25 * distance * distance - radius * radius)), 0.5);
+  o.allow_uncertified = true;
+  const MeshResult result = mesh_surface(atoms, o);
+  CHECK_FALSE(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}});
+  CHECK(result.report.check.fraction_under_30_deg < 0.02);
+}
+
 TEST_CASE("where the finer cells for improvement cannot be traced the others are") {
   const std::vector<Atom> atoms = {{0, 0, 0, 1.5, 0}, {1.8257418583505538, 0, 0, 1.5, 0}};
   const MeshResult result = mesh_surface(atoms, improved(0.6, 4.6792937033840518, 0.3));
+  CHECK(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}});
+}
+
+TEST_CASE("an atom far from the origin that wants the smallest cells is not missed") {
+  // Two spheres of a ten-thousandth of an A.
+  const double decay = 0.6, isovalue = 1.7, far = 425000.0, radius = std::sqrt(1e-8 + std::log(isovalue) / decay);
+  const std::vector<Atom> atoms = {{0, 0, 0, radius, 0}, {far, far, far, radius, 0}};
+  const MeshResult result = mesh_surface(atoms, improved(decay, isovalue, 0.01));
+  CHECK(result.report.certified);
+  CHECK(topology(result) == std::vector<Piece>{{0, false}, {0, false}});
+}
+
+TEST_CASE("a large crease that samples may happen to lie on does not make the mesh look too large") {
+  // x, y, z, r; across the direction of one of the samples.
+  const std::vector<Atom> atoms = {{0, 0, 0, 1000, 0}, {860.374350504662, -96.256007881888, 245.948689649533, 1000, 0}};
+  const MeshResult result = mesh_surface(atoms, improved(0.6, 1.7, 50.0));
   CHECK(result.report.certified);
   CHECK(topology(result) == std::vector<Piece>{{0, false}});
 }

@@ -76,6 +76,16 @@ TEST_CASE("the area of a sphere is known, that of many atoms about") {
   CHECK(area_of(ring) < 1.1 * exact);
 }
 
+TEST_CASE("a crease does not make more of the least number of triangles, even where a sample lies on it") {
+  // The crease is across the direction of one of the samples.
+  const double radius = 1000.0, spacing = 50.0;
+  const std::vector<Atom> pair = {{0, 0, 0, radius, 0},
+                                  {860.374350504662, -96.256007881888, 245.948689649533, radius, 0}};
+  const SizeSamples samples = sample_sizes(GaussianField(pair, kDecay, 1.7), {.spacing = spacing});
+  CHECK(samples.sizes.front() == Approx(kLeastSize * spacing));
+  CHECK(least_triangle_count(samples) < 1.1 * triangles_on(samples.area, spacing));
+}
+
 TEST_CASE("what is said to be the least number of triangles is not much more than there are") {
   const std::vector<Atom> ring = atom_ring(12, 5.0, 1.5);
   for (const double spacing : {0.3, 1.0, 3.0}) {

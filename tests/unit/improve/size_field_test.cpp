@@ -32,6 +32,25 @@ void check_all_sizes(const BlockMesh& block, double wanted) {
 
 }  // namespace
 
+TEST_CASE("no size is below a hundredth of the spacing on a crease, but where the surface curves both ways") {
+  const SizeTargets targets = {.spacing = kSpacing};
+  const auto size_at = [&](double larger, double smaller) {
+    return wanted_size({.larger = larger, .smaller = smaller}, targets);
+  };
+  const double least = kLeastSize * kSpacing;
+  CHECK(size_at(1.0 / kSpacing, 0.0) == kSpacing);
+  for (const double smaller : {0.0, 1e-3, 0.5}) {
+    CAPTURE(smaller);
+    CHECK(size_at(1e3, smaller) == Approx(least));
+    CHECK(size_at(1e9, smaller) == Approx(least));
+  }
+  CHECK(size_at(1e4, 1e4) == Approx(kTurnPerEdge / 1e4));
+  CHECK(size_at(1e5, 1e4) == Approx(kTurnPerEdge / 1e5));
+  CHECK(size_at(1e9, 10.0) < 0.1 * least);         // the waist of a neck may be nearly flat ...
+  CHECK(size_at(1e9, 10.0) > kTurnPerEdge / 1e9);  // ... but not so flat
+  CHECK(size_at(1e9, 1e9) == Approx(kLeastSizeOfAll * kSpacing));
+}
+
 TEST_CASE("on a sphere the wanted size is what is asked for, unless the curvature or the tolerance asks for less") {
   const double radius = 2.0;
   const std::vector<Atom> sphere = {{0.1, 0.2, 0.3, radius, 0}};
