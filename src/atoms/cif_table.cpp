@@ -41,7 +41,8 @@ struct Found {
   std::size_t line = 0;
 };
 
-/// Throws the error for a file without tags that begin with `prefix`. Crystallographic CIF has others that look like them.
+/// Throws the error for a file without tags that begin with `prefix`. Crystallographic CIF has others that look like
+/// them.
 [[noreturn]] void fail_without(const cif::Document& document, const std::string& prefix, const std::string& file) {
   const std::string expected = "expected a loop " + loop_of(prefix) + " of mmCIF, tags " + prefix + "*, got ";
   const std::string other = loop_of(prefix) + "_";

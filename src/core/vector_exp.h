@@ -13,8 +13,8 @@ namespace gaussmesh {
 /// Taylor remainder of degree 12 is 1.7e-16, and Horner's scheme rounds 24 times on terms that fall by r/n.
 inline constexpr double kVectorExpError = 8e-16;
 
-/// Bound of the relative error of a sum of n positive terms. 1e-9 is for the terms, products of a few exponentials: below
-/// 1e-14 by kVectorExpError, and so much more for whoever adds up in another way, since no bound here needs to be
+/// Bound of the relative error of a sum of n positive terms. 1e-9 is for the terms, products of a few exponentials:
+/// below 1e-14 by kVectorExpError, and so much more for whoever adds up in another way, since no bound here needs to be
 /// tighter. The rest is for the additions.
 inline constexpr double sum_error(std::size_t n) { return 1e-9 + 1.2e-16 * static_cast<double>(n); }
 

@@ -51,8 +51,8 @@ class NearAtoms : public WeightedCentres {
   void add_to_tail(double count, double w_max, double distance_sq, double decay);
 
   /// Accounts for the atoms left out of `n` with |log-weight| at most `largest_w`: those whose largest exponents are
-  /// below -cut, the one that clear() was given. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with r from w - E = 1/2 on; the sum
-  /// of the slopes is at most 2 sqrt(d sum e^E sum (w - E) e^E), by Cauchy and Schwarz.
+  /// below -cut, the one that clear() was given. The slope of one is 2 d r e^E = 2 sqrt(d (w - E)) e^E, which falls with
+  /// r from w - E = 1/2 on; the sum of the slopes is at most 2 sqrt(d sum e^E sum (w - E) e^E), by Cauchy and Schwarz.
   void add_to_tail(const double* exponent, std::size_t n, double largest_w, double decay);
 
   /// Becomes the atoms of `parent` that count in `box`, a part of the parent's box: those with

@@ -27,8 +27,8 @@ struct BadPlace {
 
 std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices);
 
-/// Places of bad vertices, and of all that are connected with them through edges meant to be much shorter than the cells
-/// (A) of the trace: of a long crease, what was mended in this mesh may be bad in the next.
+/// Places of bad vertices, and of all that are connected with them through edges meant to be much shorter than the
+/// cells (A) of the trace: of a long crease, what was mended in this mesh may be bad in the next.
 /// Cost: two passes over the triangles.
 std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell);
 

@@ -10,8 +10,8 @@
 
 namespace gaussmesh {
 
-/// Triangles are of one sheet of the surface where their mean normals have a larger scalar product: the cosine, times the
-/// lengths, which are less than 1 where the normals of the corners differ.
+/// Triangles are of one sheet of the surface where their mean normals have a larger scalar product: the cosine, times
+/// the lengths, which are less than 1 where the normals of the corners differ.
 inline constexpr float kSameSheet = 0.4f;
 
 inline bool are_of_one_sheet(const Normal& m, const Normal& n) {
