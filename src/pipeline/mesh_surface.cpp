@@ -95,7 +95,7 @@ class SurfaceMesher {
  private:
   void mesh_as_traced() {
     require_room_as_traced(field_, options_);
-    take_mesh(trace().surface);
+    take_mesh(trace());
     result_.report.check = check_mesh(result_.mesh);
     if (options_.measure_distance) measure_distance();
   }
@@ -126,9 +126,9 @@ class SurfaceMesher {
       LeftBad bad;
       std::vector<std::int64_t> traced;
       do {
-        TraceResult trace = this->trace();
-        traced = euler_numbers(trace.surface.mesh);
-        bad = improve(std::move(trace), targets, guarding);
+        SurfaceMesh surface = trace();
+        traced = euler_numbers(surface.mesh);
+        bad = improve(std::move(surface), targets, guarding);
       } while (can_be_finer_ && finer_traces_.demand(bad, result_.mesh.vertices.size(), demands_));
       result_.report.check = check_mesh(result_.mesh);
       has_same_topology_ = euler_numbers(result_.report.check.components) == traced;
@@ -138,7 +138,7 @@ class SurfaceMesher {
   }
 
   /// The traced surface, with the certificate in the report. @throws CannotMeshError
-  TraceResult trace() {
+  SurfaceMesh trace() {
     take_mesh({});  // that of an attempt before makes room
     MeshReport& report = result_.report;
     TraceResult trace = trace_at_level();
@@ -157,7 +157,7 @@ class SurfaceMesher {
       throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue, 15) +
                             " everywhere; choose a smaller c");
     }
-    return trace;
+    return std::move(trace.surface);
   }
 
   TraceResult trace_with(const TraceDemands& demands) {
@@ -225,11 +225,11 @@ class SurfaceMesher {
   }
 
   /// Improves a traced mesh. @return what is left bad
-  LeftBad improve(TraceResult trace, SizeTargets targets, Guarding guarding) {
+  LeftBad improve(SurfaceMesh traced, SizeTargets targets, Guarding guarding) {
     const ManyBad many_bad = can_be_finer_ && demands_.fine_places.empty() ? ManyBad::kLeave : ManyBad::kMend;
-    targets.cell = trace.cell_size;
+    targets.cell = demands_.spacing;  // those that were traced with in the end
     ImprovedSurface improved =
-        improve_surface(std::move(trace.surface), field_, targets, guarding, many_bad, threads_, options_.on_improving);
+        improve_surface(std::move(traced), field_, targets, guarding, many_bad, threads_, options_.on_improving);
     take_mesh(std::move(improved.surface));
     watch_.finished("improve");
     return std::move(improved.left);
