@@ -216,12 +216,15 @@ class SurfaceImprover {
         last_gain = i;
       }
       if (count > kManyBad * static_cast<double>(mesh_.at.size())) {
-        if (many_bad == ManyBad::kLeave) return left_at(find_bad_vertices(mesh_, threads_));
+        if (many_bad == ManyBad::kLeave) {
+          return {find_thin_vertices(mesh_, threads_).size(), places_to_trace(find_bad_vertices(mesh_, threads_))};
+        }
         if (count > kLoss * before || i - last_gain > kSweepsPerDoubling) break;
       }
       mend(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling));
     }
-    return left_at(find_thin_vertices(mesh_, threads_));
+    const std::vector<std::uint32_t> thin = find_thin_vertices(mesh_, threads_);
+    return {thin.size(), places_to_trace(thin)};
   }
 
   SurfaceMesh release() && {
@@ -256,8 +259,8 @@ class SurfaceImprover {
     for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
   }
 
-  LeftBad left_at(const std::vector<std::uint32_t>& vertices) const {
-    return {find_thin_vertices(mesh_, threads_).size(), places_round(vertices, mesh_, targets_.cell)};
+  std::vector<BadPlace> places_to_trace(const std::vector<std::uint32_t>& bad) const {
+    return places_round(bad, mesh_, targets_.cell);
   }
 
   WholeMesh mesh_;
