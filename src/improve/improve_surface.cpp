@@ -59,8 +59,11 @@ constexpr double kMostHalfEdge = 5.0;  ///< spacings
 /// Where many are bad, a few sweeps that leave no fewer than this part of them are the last ...
 constexpr double kGain = 0.9;
 
-/// ... and so is one that leaves so many times as many: the surface is finer than triangles may be.
+/// ... and so is one that leaves so many times as many: the surface is finer than triangles may be. Where a finer trace
+/// can follow it takes both, and no more than this part of all vertices: some places get worse for as long as they are
+/// worked on.
 constexpr double kLoss = 2.0;
+constexpr double kFewBad = 0.02;
 
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
@@ -207,6 +210,7 @@ class SurfaceImprover {
     std::vector<BadPlace> bad;  // where none is known the whole mesh is looked at
     std::size_t fewest = mesh_.at.size();
     int last_gain = 0;
+    const bool can_be_left = many_bad == ManyBad::kLeave;
     for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
       if (bad.empty()) bad = places_of(mesh_, find_bad_vertices(mesh_, threads_));
       if (bad.empty()) return {};
@@ -215,12 +219,13 @@ class SurfaceImprover {
         fewest = bad.size();
         last_gain = i;
       }
-      if (count > kManyBad * static_cast<double>(mesh_.at.size())) {
-        if (many_bad == ManyBad::kLeave) {
-          return {find_thin_vertices(mesh_, threads_).size(), places_to_trace(find_bad_vertices(mesh_, threads_))};
-        }
-        if (count > kLoss * before || i - last_gain > kSweepsPerDoubling) break;
+      const double share = count / static_cast<double>(mesh_.at.size());
+      const bool is_loss = count > kLoss * before, has_no_gain = i - last_gain > kSweepsPerDoubling;
+      if (can_be_left && share > kManyBad) {
+        return {find_thin_vertices(mesh_, threads_).size(), places_to_trace(find_bad_vertices(mesh_, threads_))};
       }
+      if (can_be_left && share > kFewBad && is_loss && has_no_gain) break;
+      if (share > kManyBad && (is_loss || has_no_gain)) break;
       mend(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling));
     }
     const std::vector<std::uint32_t> thin = find_thin_vertices(mesh_, threads_);

@@ -37,7 +37,7 @@ inline constexpr double kManyBad = 0.2;
 
 /// What to do with them.
 enum class ManyBad {
-  kLeave,  ///< to a finer trace
+  kLeave,  ///< to a finer trace; so are fewer of them that only become more
   kMend,   ///< as long as it helps
 };
 

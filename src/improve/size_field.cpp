@@ -22,11 +22,11 @@ double least_size(double curvature, const SizeTargets& targets) {
 
 /// Wanted edge where such a curvature was found.
 double size_at(double curvature, const SizeTargets& targets) {
-  double size = std::min(kTurnPerEdge / curvature, targets.largest());
+  const double size = std::max(std::min(kTurnPerEdge / curvature, targets.largest()), least_size(curvature, targets));
+  if (targets.tolerance == 0.0) return size;
   // The middle of an equilateral triangle of edge s is s / sqrt(3) from its corners, and s^2 k / 6 below the
   // surface; edges may be up to half as long again as wanted.
-  if (targets.tolerance > 0.0) size = std::min(size, std::sqrt(2.5 * targets.tolerance / curvature));
-  return std::max(size, least_size(curvature, targets));
+  return std::min(size, std::max(std::sqrt(2.5 * targets.tolerance / curvature), kLeastSizeOfAll * targets.spacing));
 }
 
 /// Each edge once; those on the boundary, whose other half is kNone, have one only.

@@ -28,7 +28,8 @@ inline constexpr double kTurnBetweenEnds = 1.0;
 /// triangles.
 inline constexpr double kGrowth = 0.25;
 
-/// No edge is wanted shorter than this part of the spacing, which would make many triangles along creases ...
+/// No edge is wanted shorter than this part of the spacing for the curvature's sake, which would make many triangles
+/// along creases ...
 inline constexpr double kLeastSize = 0.01;
 
 /// ... but where the surface curves in both directions, as where it nearly pinches off: there are few of such

@@ -103,6 +103,7 @@ class SurfaceMesher {
   /// Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another attempt.
   void mesh_improved() {
     constexpr int kMostAttempts = 4;
+    constexpr double kLeastChange = 0.9, kMostChange = 0.6;
     SizeTargets targets;
     targets.spacing = options_.spacing;
     targets.tolerance = options_.tolerance;
@@ -115,7 +116,8 @@ class SurfaceMesher {
       if (options_.measure_distance || options_.tolerance > 0.0) measure_distance();
       watch_.finished("verify");
       if (options_.tolerance == 0.0 || *result_.report.surface_distance <= options_.tolerance) return;
-      targets.tolerance *= 0.6;
+      const double excess = *result_.report.surface_distance / options_.tolerance;
+      targets.tolerance *= std::clamp(kLeastChange / excess, kMostChange, kLeastChange);
     }
   }
 

@@ -43,6 +43,7 @@ TEST_CASE("on a sphere cells follow the size that its curvature or the tolerance
   CHECK(by_curvature / by_tolerance ==
         Approx(kTurnPerEdge * radius / std::sqrt(2.5 * tolerance * radius)).epsilon(1e-3));
   CHECK(cell_for({{1, 2, 3, 2.0 * radius, 0}}, 100.0) == Approx(2.0 * by_curvature).epsilon(1e-3));
+  CHECK(cell_for(sphere, 100.0, tolerance) == by_tolerance);  // however far below the spacing that is
 }
 
 TEST_CASE("large spheres count by their area: small ones beside them do not make cells small") {
