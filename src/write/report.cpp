@@ -84,6 +84,15 @@ std::size_t count_cavities(const MeshCheck& check) {
   return cavities;
 }
 
+/// Why edges are much shorter than was asked for.
+std::string remark_on_edges(const MeshReport& report) {
+  constexpr double kMuchShorter = 0.75;
+  const MeshOptions& asked = report.options;
+  if (!asked.improve || report.check.mean_edge > kMuchShorter * asked.spacing) return "";
+  return " (" + number_text(asked.spacing, 3) + " wanted; " +
+         (asked.tolerance > 0.0 ? "curvature or tolerance ask" : "curvature asks") + " for less)";
+}
+
 }  // namespace
 
 std::string report_json(const MeshReport& report) {
@@ -131,7 +140,8 @@ std::string report_summary(const MeshReport& report) {
   text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
           " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
           number_text(100.0 * check.fraction_under_30_deg, 2) + " % under 30; mean edge " +
-          number_text(check.mean_edge, 3) + " A, shortest over longest " + number_text(check.mean_edge_ratio, 3);
+          number_text(check.mean_edge, 3) + " A" + remark_on_edges(report) + ", shortest over longest " +
+          number_text(check.mean_edge_ratio, 3);
   if (report.surface_distance) text += "; within " + number_text(*report.surface_distance, 3) + " A of the surface";
   text += "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +

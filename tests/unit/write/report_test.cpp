@@ -112,3 +112,17 @@ TEST_CASE("the summary counts components, cavities and handles, and says whether
   CHECK_THAT(uncertain, Catch::Matchers::ContainsSubstring("NOT certified"));
   CHECK_THAT(uncertain, Catch::Matchers::ContainsSubstring("1.70000001"));
 }
+
+TEST_CASE("the summary says why edges are much shorter than the spacing") {
+  MeshReport report = sample_report();
+  report.check.mean_edge = 0.45;
+  CHECK_THAT(report_summary(report), Catch::Matchers::ContainsSubstring("mean edge 0.45 A, shortest"));
+  report.options.spacing = 2.5;
+  CHECK_THAT(report_summary(report),
+             Catch::Matchers::ContainsSubstring("mean edge 0.45 A (2.5 wanted; curvature asks for less), shortest"));
+  report.options.tolerance = 0.01;
+  CHECK_THAT(report_summary(report),
+             Catch::Matchers::ContainsSubstring("(2.5 wanted; curvature or tolerance ask for less)"));
+  report.options.improve = false;
+  CHECK_THAT(report_summary(report), !Catch::Matchers::ContainsSubstring("wanted"));
+}
