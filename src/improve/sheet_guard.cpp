@@ -53,13 +53,12 @@ void SheetGuard::find_cube(const BlockMesh& mesh) {
 }
 
 SheetTree::Item SheetGuard::item_of(const BlockMesh& mesh, const Triangle& t) const {
-  constexpr float kSlack = 1e-5f;  // relative: two roundings, and the subtraction of the corner
   SheetTree::Item item{};
   for (int k = 0; k < 3; ++k) {
     const auto [least, most] = std::minmax({mesh.at[t[0]][k], mesh.at[t[1]][k], mesh.at[t[2]][k]});
-    const auto lo = static_cast<float>(least - lo_[k]), hi = static_cast<float>(most - lo_[k]);
-    item.box.lo[k] = lo - kSlack * std::abs(lo);
-    item.box.hi[k] = hi + kSlack * std::abs(hi);
+    // Rounding keeps the order of numbers, so boxes that meet still do.
+    item.box.lo[k] = static_cast<float>(least - lo_[k]);
+    item.box.hi[k] = static_cast<float>(most - lo_[k]);
   }
   if (guarding_ == Guarding::kEverywhere) return item;
   for (const std::uint32_t v : t) {
