@@ -100,7 +100,8 @@ class SurfaceMesher {
     if (options_.measure_distance) measure_distance();
   }
 
-  /// Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another attempt.
+  /// Sizes follow the curvature at vertices; between them it may be larger, and the tolerance takes another attempt:
+  /// for as much less as the last one missed by and a tenth, within limits.
   void mesh_improved() {
     constexpr int kMostAttempts = 4;
     constexpr double kLeastChange = 0.9, kMostChange = 0.6;
