@@ -62,6 +62,7 @@ CLI::App* add_check_command(CLI::App& program, CheckCommand& command) {
       ->check(positive_number())
       ->group(judgement);
   add_json_option(*app, command.json);
+  add_threads_option(*app, command.threads);
   app->footer(
       "Examples:\n"
       "  gaussmesh check out.off                             is it closed, embedded, right side out?\n"
@@ -78,7 +79,7 @@ int run_check(const CheckCommand& command) {
   std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
   inputs.push_back(command.mesh);
   require_files(inputs, {command.json.value_or("")});
-  take_threads(0);
+  take_threads(command.threads);
   const CheckFindings found = find_all(command);
   put_report(findings_text(found), findings_json(found), command.json);
   return found.is_good() ? kGood : kCheckFailed;

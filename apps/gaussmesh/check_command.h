@@ -18,6 +18,7 @@ struct CheckCommand {
   SurfaceOptions surface;                ///< of the molecule
   double tolerance = 1e-6;               ///< largest distance (A) that a vertex may have from it
   std::optional<double> min_separation;  ///< least distance (A) of any two vertices
+  int threads = 0;                       ///< 0: one for each processor
   std::optional<std::string> json;       ///< write JSON here; "-": to the terminal, in place of the report
 };
 

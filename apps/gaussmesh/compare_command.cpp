@@ -51,6 +51,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
       ->type_name("N")
       ->check(positive_number());
   add_json_option(*app, command.json);
+  add_threads_option(*app, command.threads);
   app->footer(
       "For each direction: the largest distance of a sample, what no point of the surface exceeds, and the mean "
       "and\n"
@@ -61,7 +62,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
 
 int run_compare(const CompareCommand& command) {
   require_files({command.first, command.second}, {command.json.value_or("")});
-  take_threads(0);
+  take_threads(command.threads);
   const TriangleMesh first = read_mesh_argument(command.first).mesh;
   const TriangleMesh second = read_mesh_argument(command.second).mesh;
   const MeshComparison found = compare_meshes(first, second, command.options);

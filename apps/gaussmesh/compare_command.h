@@ -13,6 +13,7 @@ struct CompareCommand {
   std::string first;
   std::string second;
   CompareOptions options;
+  int threads = 0;                  ///< 0: one for each processor
   std::optional<std::string> json;  ///< write JSON here; "-": to the terminal, in place of the report
 };
 

@@ -37,6 +37,7 @@ CLI::App* add_convert_command(CLI::App& program, ConvertCommand& command) {
           ->check(file_name_of_option());
   for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
   add_format_options(*app, command.writing);
+  add_threads_option(*app, command.writing.threads);
   app->footer(
       "Without a molecule, nearest atoms are those that the input has, if any. Normals that it has not are averaged\n"
       "over the triangles.\n\n"
@@ -53,7 +54,7 @@ int run_convert(const ConvertCommand& command) {
   // The mesh itself may be written over: all of it has been read by then.
   require_writable_outputs(command.outputs, "", writing,
                            files_of_molecule(command.molecule.value_or(""), command.reading));
-  writing.threads = take_threads(0);
+  writing.threads = take_threads(command.writing.threads);
   MeshFile file = read_mesh_argument(command.input);
   const MeshCheck check = check_mesh(file.mesh);
   if (check.bad_indices > 0) {

@@ -90,6 +90,7 @@ CLI::App* add_measure_command(CLI::App& program, MeasureCommand& command) {
       ->needs(molecule);
   for (CLI::Option* option : add_molecule_options(*app, command.reading)) option->needs(molecule);
   add_json_option(*app, command.json);
+  add_threads_option(*app, command.threads);
   app->footer(
       "Area and volume are given for each component too; a cavity's volume is negative. With a molecule: the area "
       "that\n"
@@ -104,7 +105,7 @@ int run_measure(const MeasureCommand& command) {
   std::vector<std::string> inputs = files_of_molecule(command.molecule.value_or(""), command.reading);
   inputs.push_back(command.mesh);
   require_files(inputs, {command.json.value_or(""), command.atom_areas.value_or("")});
-  take_threads(0);
+  take_threads(command.threads);
   const TriangleMesh mesh = read_mesh_argument(command.mesh).mesh;
   Measured found{command.mesh, check_mesh(mesh), std::nullopt};
   if (found.mesh.bad_indices > 0 || found.mesh.bad_coordinates > 0)

@@ -14,6 +14,7 @@ struct MeasureCommand {
   std::optional<std::string> molecule;    ///< measure by its atoms, too
   MoleculeOptions reading;                ///< of the molecule
   std::optional<std::string> atom_areas;  ///< write the area at each atom here
+  int threads = 0;                        ///< 0: one for each processor
   std::optional<std::string> json;        ///< write JSON here; "-": to the terminal, in place of the report
 };
 

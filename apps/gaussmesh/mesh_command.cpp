@@ -255,10 +255,7 @@ void add_output_group(CLI::App& program, MeshCommand& command) {
 
 void add_running_group(CLI::App& program, MeshCommand& command) {
   const std::string group = "Running";
-  program.add_option("--threads", command.options.threads, "threads (0 to 4096; default: 0, one for each processor)")
-      ->type_name("N")
-      ->check(whole_number_between(0, 4096))
-      ->group(group);
+  add_threads_option(program, command.options.threads)->group(group);
   program
       .add_option("--max-memory", command.max_memory,
                   "memory to get by with, such as 500M or 4G, at least 128M: what does not fit is kept in a temporary "

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "validators.h"
+
 namespace gaussmesh::app {
 namespace {
 
@@ -27,6 +29,12 @@ int count_that_start(int count) {
 }
 
 }  // namespace
+
+CLI::Option* add_threads_option(CLI::App& command, int& threads) {
+  return command.add_option("--threads", threads, "threads (0 to 4096; default: 0, one for each processor)")
+      ->type_name("N")
+      ->check(whole_number_between(0, 4096));
+}
 
 int take_threads(int wish, FewerThreads message) {
   const int asked = wish > 0 ? wish : std::max(omp_get_num_procs(), omp_get_max_threads());

@@ -1,7 +1,12 @@
 // How many threads there may be: OpenMP ends the program where it cannot start one.
 #pragma once
 
+#include <CLI/CLI.hpp>
+
 namespace gaussmesh::app {
+
+/// Adds --threads, which fills `threads`; that must outlive the command. @return the option
+CLI::Option* add_threads_option(CLI::App& command, int& threads);
 
 /// What a message of fewer threads goes with.
 enum class FewerThreads { kWarn, kSayNothing };

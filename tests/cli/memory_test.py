@@ -72,13 +72,21 @@ class Memory(CliTest):
         """Stacks of 1 GiB in 4 GiB of addresses."""
         run = f"ulimit -s {1 << 20}; ulimit -v {4 << 20}; exec {settings.program} "
         self.expect(0, self.molecule("dmso"), "-o", self.mesh)
-        for command in (f"{self.molecule('dmso')} -o a.off --threads 20", f"convert {self.mesh} a.off"):
+
+        def said_by(command):
             result = subprocess.run(["bash", "-c", run + command], cwd=self.folder, capture_output=True, text=True,
                                     check=False, env={**os.environ, "OMP_NUM_THREADS": "20"})
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stderr, "^gaussmesh: warning: expected to start 20 threads, got [1-4]; a limit on "
-                                            r"processes or memory \(ulimit -u, -v\) leaves no room for more$")
+            return result.stderr
+
+        for command in (f"{self.molecule('dmso')} -o a.off --threads 20", f"convert {self.mesh} a.off"):
+            said = said_by(command)
+            self.assertRegex(said, "^gaussmesh: warning: expected to start 20 threads, got [1-4]; a limit on "
+                                   r"processes or memory \(ulimit -u, -v\) leaves no room for more$")
             self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
+        for command in (f"convert {self.mesh} a.off", f"check {self.mesh}", f"measure {self.mesh}",
+                        f"compare {self.mesh} {self.mesh}"):
+            self.assertEqual(said_by(command + " --threads 1"), "", "no more threads are asked for")
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("mke2fs"), "mounting is for root")
     def test_says_that_a_disk_is_full_that_sets_no_room_aside(self):
