@@ -65,6 +65,7 @@ int run_convert(const ConvertCommand& command) {
   if (command.molecule) {
     const std::vector<Atom> atoms = read_molecule(*command.molecule, command.reading).atoms;
     file.data.atoms = find_nearest_atoms(file.mesh, atoms, writing.threads);
+    file.data.atom_count = atoms.size();
   }
   if (file.data.normals.empty() && needs_normals(command.outputs, writing)) {
     file.data.normals = average_normals(file.mesh);

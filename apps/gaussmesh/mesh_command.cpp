@@ -114,6 +114,7 @@ VertexData find_vertex_data(const MeshCommand& command, const std::vector<Atom>&
   for (const std::string& output : command.outputs) {
     if (format_of(output, command.writing).held != HeldData::kAll) continue;
     data.atoms = find_nearest_atoms(result.mesh, atoms, threads);
+    data.atom_count = atoms.size();
     data.components = find_vertex_components(result.mesh, result.report.check);
     break;
   }

@@ -36,7 +36,8 @@ struct MeshFile {
 /// - VTP: triangles of all pieces; arrays as text, in base64 or as they are in memory, plain or by zlib, in the element
 ///   or appended. Normals, and arrays `atom` and `component` of whole numbers, are kept; vertices and lines are passed
 ///   over. Strips, and data by LZ4 or LZMA, are refused.
-/// - MSMS: with header or without; normals, and the nearest atom where every vertex has one.
+/// - MSMS: with header or without; normals, and the nearest atom where every vertex has one; the number of atoms, which
+///   are its spheres, from the header of the vertices.
 ///
 /// Normals are scaled to length 1. Nothing is judged here but the format: a vertex number that is too large is left to
 /// check_mesh() in all formats where vertices are numbered by their place. What a file announces is believed only as

@@ -1,6 +1,7 @@
 // What a mesh file can hold beside the triangles.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct VertexData {
   std::vector<Normal> normals;
   std::vector<std::uint32_t> atoms;       ///< the nearest atom, counted from 0 in the order of the file
   std::vector<std::uint32_t> components;  ///< place in MeshCheck::components
+  std::size_t atom_count = 0;  ///< of the molecule, for headers of MSMS; 0: not known, as many as `atoms` tell of
 };
 
 /// The atom nearest to each vertex in the measure of the field: that of the smallest |x - x_i|^2 - r_i^2, which

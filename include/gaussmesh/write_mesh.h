@@ -78,7 +78,7 @@ class OutputFiles {
 /// | format | what is written of the vertex data |
 /// |---|---|
 /// | off | none |
-/// | msms | normals (averaged over the triangles if not known), atoms from 1 (else 0) |
+/// | msms | normals (averaged over the triangles if not known), atoms from 1 (else 0), in the header their number |
 /// | ply, ply-ascii, vtp | normals, atoms and components from 0 |
 /// | obj | normals |
 /// | stl | none |

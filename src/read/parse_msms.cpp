@@ -11,25 +11,36 @@ constexpr std::string_view kVertex =
 constexpr std::string_view kFace = "a face: three vertex numbers from 1";
 constexpr std::size_t kSphereField = 7;
 
-/// Calls read_line() for each line behind the header.
+/// What the third line of a header says.
+struct Header {
+  std::size_t count = 0;
+  std::size_t spheres = 0;  ///< 0: not said
+};
+
+Header read_header(MeshLines& lines, const std::string& expected) {
+  lines.require_next(expected);
+  const auto fields = lines.fields();
+  const auto spheres = fields.size() > 1 ? parse_integer<std::size_t>(fields[1]) : std::nullopt;
+  return {lines.integer<std::size_t>(0, expected), spheres.value_or(0)};
+}
+
+/// Calls read_line() for each line behind the header. @return how many spheres that says there are, or 0
 ///
 /// A header is two lines of comment, then the counts. Without the comments there is none: counts would look like a
 /// face.
 template <class ReadLine>
-void read_lines(std::string_view text, std::string_view name, const char* what, const ReadLine& read_line) {
+std::size_t read_lines(std::string_view text, std::string_view name, const char* what, const ReadLine& read_line) {
   require_content(text, name);
   const bool has_header = text.starts_with('#');
   MeshLines lines(text, name);
-  std::size_t announced = 0, count = 0;
-  if (has_header) {
-    lines.require_next(std::string("the number of ") + what);
-    announced = lines.integer<std::size_t>(0, std::string("the number of ") + what);
-  }
+  const Header header = has_header ? read_header(lines, std::string("the number of ") + what) : Header{};
+  std::size_t count = 0;
   for (; lines.next(); ++count) read_line(lines);
-  if (has_header && announced != count) {
-    throw InputError(std::string(name) + ": expected " + std::to_string(announced) + " " + what +
+  if (has_header && header.count != count) {
+    throw InputError(std::string(name) + ": expected " + std::to_string(header.count) + " " + what +
                      ", as the header says, got " + std::to_string(count));
   }
+  return header.spheres;
 }
 
 std::uint32_t sphere_of(const MeshLines& lines) {
@@ -41,11 +52,12 @@ std::uint32_t sphere_of(const MeshLines& lines) {
 MeshFile parse_msms(std::string_view vertices, std::string_view vertices_name, std::string_view faces,
                     std::string_view faces_name) {
   MeshFile file;
-  read_lines(require_text(vertices, vertices_name), vertices_name, "vertices", [&](const MeshLines& lines) {
+  const auto read_vertex = [&](const MeshLines& lines) {
     file.mesh.vertices.push_back(lines.point(0, kVertex));
     file.data.normals.push_back(to_normal(lines.point(3, kVertex)));
     if (const std::uint32_t sphere = sphere_of(lines)) file.data.atoms.push_back(sphere - 1);
-  });
+  };
+  file.data.atom_count = read_lines(require_text(vertices, vertices_name), vertices_name, "vertices", read_vertex);
   if (file.data.atoms.size() != file.mesh.vertices.size()) file.data.atoms.clear();
   read_lines(require_text(faces, faces_name), faces_name, "faces", [&](const MeshLines& lines) {
     Triangle triangle{};

@@ -60,6 +60,7 @@ MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, co
     for (const std::uint32_t v : mesh.triangles[t]) component_of[v] = place(t);
   }
   MeshFile part;
+  part.data.atom_count = data.atom_count;
   std::vector<std::uint32_t> number(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (component_of[v] == kNoComponent) continue;

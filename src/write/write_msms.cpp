@@ -3,7 +3,8 @@
 // Sanner, Olson, Spehner, Biopolymers 38:305 (1996); the columns are those of the MSMS manual: x y z, normal,
 // number of an analytical face, sphere, type; three vertices from 1, type, number of an analytical face. There are
 // no analytical faces here, so their numbers are 0 at vertices, and the component at faces; all types are 3, "in a
-// contact face". TABI-PB wants the header, whose third line begins with the count; PyGBe, pbj and VMD want none.
+// contact face". TABI-PB wants the header, whose third line begins with the count; PyGBe, pbj and VMD want none. Some
+// versions of TABI-PB read as many charges as it has spheres: these are all atoms, whether a vertex is near or not.
 
 #include "write/mesh_writer.h"
 
@@ -12,15 +13,16 @@ namespace {
 
 constexpr std::string_view kContact = "3";
 
-/// How many spheres there are as far as the vertices tell.
-std::size_t sphere_count(const std::vector<std::uint32_t>& atoms) {
-  return atoms.empty() ? 0 : std::size_t{*std::max_element(atoms.begin(), atoms.end())} + 1;
+/// How many spheres there are: at least as many as the vertices tell of.
+std::size_t sphere_count(const VertexData& data) {
+  const auto last = std::max_element(data.atoms.begin(), data.atoms.end());
+  return std::max(data.atom_count, last == data.atoms.end() ? 0 : std::size_t{*last} + 1);
 }
 
 void write_header(const MeshView& view, WholeFile& file, const std::string& what, std::size_t count) {
   if (!view.msms_header) return;
   file.write("# " + what + " of a Gaussian surface, written by gaussmesh\n#count spheres density probe\n" +
-             std::to_string(count) + " " + std::to_string(sphere_count(view.data.atoms)) + " 0.00 0.00\n");
+             std::to_string(count) + " " + std::to_string(sphere_count(view.data)) + " 0.00 0.00\n");
 }
 
 }  // namespace

@@ -223,6 +223,20 @@ class Msms(FormatTest):
                 vertices, faces = self.msms(name)
                 self.same_mesh(vertices[:, :3], faces[:, :3] - 1)
 
+    def test_headers_have_the_number_of_atoms(self):
+        """No vertex is nearest to the last atom of methanol; solvers still have to take its charge."""
+        molecule, parts = self.molecule("methanol"), ["vert", "face"]
+
+        def spheres(name):
+            return [(self.folder / f"{name}.{part}").read_text().splitlines()[2].split()[1] for part in parts]
+
+        self.expect(0, molecule, "-o", "a.vert", "-o", "a.off")
+        self.expect(0, molecule, "--cavities", "separate", "-o", "a.vert")
+        self.expect(0, "convert", "a.off", "b.vert", "--molecule", molecule)
+        self.expect(0, "convert", "a.face", "c.vert")
+        for name in ["a", "a_1", "b", "c"]:
+            self.assertEqual(spheres(name), ["3", "3"], name)
+
     def test_normals_point_into_the_solvent(self):
         vertices, faces = self.msms("m")
         normals = vertices[:, 3:6]

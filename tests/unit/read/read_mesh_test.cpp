@@ -6,6 +6,7 @@
 
 #include "catch2.h"
 #include "gaussmesh/error.h"
+#include "gaussmesh/select_components.h"
 #include "gaussmesh/write_mesh.h"
 #include "support/folder.h"
 #include "support/random.h"
@@ -137,6 +138,23 @@ TEST_CASE("MSMS without header, and without spheres") {
   CHECK(back.mesh.triangles == kTetrahedron.triangles);
   CHECK(back.data.atoms.empty());
   CHECK(back.data.normals.size() == 4);
+}
+
+TEST_CASE("headers of MSMS have the number of atoms, whichever of them are near a vertex") {
+  MeshFile file = sample();
+  CHECK(write_and_read(file, "msms", "m.vert").data.atom_count == 100);  // no more is known than the last that is near
+  file.data.atom_count = 5;
+  CHECK(write_and_read(file, "msms", "m.vert").data.atom_count == 100);
+  file.data.atom_count = 906;
+  const Folder folder;
+  write_mesh(file.mesh, file.data, folder / "m.vert");
+  for (const char* name : {"m.vert", "m.face"})
+    CHECK_THAT(testing::read_file(folder / name), Catch::Matchers::ContainsSubstring(" 906 0.00 0.00\n"));
+  CHECK(read_mesh(folder / "m.face").data.atom_count == 906);
+  const MeshCheck check = check_mesh(file.mesh);
+  CHECK(extract_components(file.mesh, file.data, check, {1}).data.atom_count == 906);
+  const std::string vertex = "0 0 0 0 0 1 0 1 3\n";
+  CHECK(parse_msms("# \n# \n1\n" + vertex, "a.vert", "1 1 1 1 1\n", "a.face").data.atom_count == 0);
 }
 
 TEST_CASE("gzipped files") {
