@@ -128,12 +128,11 @@ OutputFiles write_all(const MeshCommand& command, const Product& product, int th
   writing.threads = threads;
   OutputFiles files;
   if (command.cavities == "separate") {
-    const std::size_t count = report.check.components.size();
-    for (std::uint32_t component = 0; component < count; ++component) {
-      const MeshFile part = extract_components(surface.mesh, surface.data, report.check, {component});
+    const auto write = [&](std::uint32_t component, const MeshFile& part) {
       for (const std::string& output : command.outputs)
         files.add_mesh(part.mesh, part.data, numbered(output, component + 1), writing);
-    }
+    };
+    split_components(surface.mesh, surface.data, report.check, write);
   } else {
     for (const std::string& output : command.outputs) files.add_mesh(surface.mesh, surface.data, output, writing);
   }

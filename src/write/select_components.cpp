@@ -46,6 +46,65 @@ MeshCheck reorder_components(MeshCheck check, const ComponentList& order) {
   return check;
 }
 
+namespace {
+
+/// Adds a vertex with what is known of it.
+void add_vertex(const TriangleMesh& mesh, const VertexData& data, std::size_t vertex, std::uint32_t component,
+                MeshFile& part) {
+  part.mesh.vertices.push_back(mesh.vertices[vertex]);
+  part.data.components.push_back(component);
+  if (!data.normals.empty()) part.data.normals.push_back(data.normals[vertex]);
+  if (!data.atoms.empty()) part.data.atoms.push_back(data.atoms[vertex]);
+}
+
+/// Numbers of triangles, those of one component after those of another.
+struct SortedTriangles {
+  std::vector<std::size_t> begin;  ///< of each component, and the end of the last
+  std::vector<std::uint32_t> triangles;
+};
+
+SortedTriangles sort_by_component(const MeshCheck& check) {
+  SortedTriangles sorted;
+  sorted.begin.resize(check.components.size() + 1);
+  for (const std::uint32_t c : check.component_of)
+    if (c != kNoComponent) ++sorted.begin[c + 1];
+  std::partial_sum(sorted.begin.begin(), sorted.begin.end(), sorted.begin.begin());
+  sorted.triangles.resize(sorted.begin.back());
+  std::vector<std::size_t> place = sorted.begin;
+  for (std::uint32_t t = 0; t < check.component_of.size(); ++t)
+    if (const std::uint32_t c = check.component_of[t]; c != kNoComponent) sorted.triangles[place[c]++] = t;
+  return sorted;
+}
+
+}  // namespace
+
+void split_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,
+                      const std::function<void(std::uint32_t component, const MeshFile& part)>& take) {
+  const SortedTriangles sorted = sort_by_component(check);
+  std::vector<std::uint32_t> number(mesh.vertices.size());
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t component = 0; component < check.components.size(); ++component) {
+    const auto begin = sorted.triangles.begin() + static_cast<std::ptrdiff_t>(sorted.begin[component]);
+    const auto end = sorted.triangles.begin() + static_cast<std::ptrdiff_t>(sorted.begin[component + 1]);
+    vertices.clear();
+    for (auto t = begin; t != end; ++t)
+      vertices.insert(vertices.end(), mesh.triangles[*t].begin(), mesh.triangles[*t].end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    MeshFile part;
+    part.data.atom_count = data.atom_count;
+    for (const std::uint32_t v : vertices) {
+      number[v] = static_cast<std::uint32_t>(part.mesh.vertices.size());
+      add_vertex(mesh, data, v, 0, part);
+    }
+    for (auto t = begin; t != end; ++t) {
+      const auto& [a, b, c] = mesh.triangles[*t];
+      part.mesh.triangles.push_back({number[a], number[b], number[c]});
+    }
+    take(component, part);
+  }
+}
+
 MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,
                             const ComponentList& components) {
   std::vector<std::uint32_t> place_of(check.components.size(), kNoComponent);
@@ -65,10 +124,7 @@ MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, co
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (component_of[v] == kNoComponent) continue;
     number[v] = static_cast<std::uint32_t>(part.mesh.vertices.size());
-    part.mesh.vertices.push_back(mesh.vertices[v]);
-    part.data.components.push_back(component_of[v]);
-    if (!data.normals.empty()) part.data.normals.push_back(data.normals[v]);
-    if (!data.atoms.empty()) part.data.atoms.push_back(data.atoms[v]);
+    add_vertex(mesh, data, v, component_of[v], part);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
