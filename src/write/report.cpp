@@ -1,4 +1,7 @@
+#include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/number_text.h"
 #include "gaussmesh/mesh_surface.h"
@@ -84,6 +87,14 @@ std::size_t count_cavities(const MeshCheck& check) {
   return cavities;
 }
 
+/// A measure for people, with up to `digits` significant digits; without an exponent, however large it is.
+std::string measure_text(double value, int digits = 6) {
+  if (std::abs(value) < std::pow(10.0, digits) - 0.5) return number_text(value, digits);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << value;
+  return text.str();
+}
+
 /// Why edges are much shorter than was asked for.
 std::string remark_on_edges(const MeshReport& report) {
   constexpr double kMuchShorter = 0.75;
@@ -134,22 +145,22 @@ std::string report_summary(const MeshReport& report) {
     memory_MB = s.peak_memory_MB;
   }
   std::string text = counted(report.atoms, "atom", "atoms") + ": " + counted(check.triangles, "triangle", "triangles") +
-                     ", " + counted(check.vertices, "vertex", "vertices") + ", area " + number_text(check.area) +
-                     " A^2, volume " + number_text(check.volume) + " A^3, " + number_text(time_s, 3) + " s, " +
-                     number_text(memory_MB, 3) + " MB\n";
-  text += "triangles: angles of " + number_text(check.min_angle_deg, 3) + " to " + number_text(check.max_angle_deg, 4) +
-          " degrees, smallest one " + number_text(check.mean_min_angle_deg, 3) + " on average, " +
-          number_text(100.0 * check.fraction_under_30_deg, 2) + " % under 30; mean edge " +
-          number_text(check.mean_edge, 3) + " A" + remark_on_edges(report) + ", shortest over longest " +
-          number_text(check.mean_edge_ratio, 3);
-  if (report.surface_distance) text += "; within " + number_text(*report.surface_distance, 3) + " A of the surface";
+                     ", " + counted(check.vertices, "vertex", "vertices") + ", area " + measure_text(check.area) +
+                     " A^2, volume " + measure_text(check.volume) + " A^3, " + measure_text(time_s, 3) + " s, " +
+                     measure_text(memory_MB, 3) + " MB\n";
+  text += "triangles: angles of " + measure_text(check.min_angle_deg, 3) + " to " +
+          measure_text(check.max_angle_deg, 4) + " degrees, smallest one " + measure_text(check.mean_min_angle_deg, 3) +
+          " on average, " + measure_text(100.0 * check.fraction_under_30_deg, 2) + " % under 30; mean edge " +
+          measure_text(check.mean_edge, 3) + " A" + remark_on_edges(report) + ", shortest over longest " +
+          measure_text(check.mean_edge_ratio, 3);
+  if (report.surface_distance) text += "; within " + measure_text(*report.surface_distance, 3) + " A of the surface";
   text += "\n";
   const std::string topology = counted(check.components.size() - cavities, "component", "components") + ", " +
                                counted(cavities, "cavity", "cavities") + ", " + counted(handles, "handle", "handles");
   const std::string but = report.left_out.components == 0
                               ? ""
                               : " but for " + counted(report.left_out.components, "component", "components") + " of " +
-                                    number_text(report.left_out.volume) + " A^3 left out on request";
+                                    measure_text(report.left_out.volume) + " A^3 left out on request";
   if (report.certified) {
     text += "certified: closed, embedded, every vertex on phi = c; exactly the topology of the surface" + but + ": " +
             topology;

@@ -113,6 +113,20 @@ TEST_CASE("the summary counts components, cavities and handles, and says whether
   CHECK_THAT(uncertain, Catch::Matchers::ContainsSubstring("1.70000001"));
 }
 
+TEST_CASE("the summary has no exponents where numbers are large") {
+  MeshReport report = sample_report();
+  report.check.area = 1.2e7;
+  report.check.volume = 999999.6;
+  report.check.fraction_under_30_deg = 1.0;
+  report.check.mean_edge = 1000.0;
+  report.stages = {{"field", 12345.0, 2530.0}};
+  const std::string said = report_summary(report);
+  CHECK_THAT(said, Catch::Matchers::ContainsSubstring("area 12000000 A^2, volume 1000000 A^3, 12345 s, 2530 MB\n"));
+  CHECK_THAT(said, Catch::Matchers::ContainsSubstring(", 100 % under 30; mean edge 1000 A"));
+  report.stages = {{"field", 206.4, 999.5}};
+  CHECK_THAT(report_summary(report), Catch::Matchers::ContainsSubstring(", 206 s, 1000 MB\n"));
+}
+
 TEST_CASE("the summary says why edges are much shorter than the spacing") {
   MeshReport report = sample_report();
   report.check.mean_edge = 0.45;
