@@ -9,6 +9,9 @@ behind `--` go to gaussmesh as they are. PDB and mmCIF files go through pdb2pqr,
 (--force-field), or get radii by name (--radii), from a file (--radii-file), or both. A molecule that fails does not
 stop the others.
 
+Of files that would become the same mesh, such as mol.pqr and the mol.pdb that it was made from, PQR is taken, else
+XYZR, and the others are said to be skipped. Two of one kind, as mol.pqr in two folders, fail: nothing tells which.
+
 A mesh that is there is kept, and said to be, if it was made from the same: what is in the molecule's file and in those
 that options name (--radii-file, --config), the options, and the version of gaussmesh; and if its files have the sizes
 they were written with. Times of files do not count. --again makes all anew. After Ctrl-C no further molecule is begun.
@@ -33,6 +36,7 @@ import tempfile
 import zlib
 
 SUFFIXES = {".pqr", ".xyzr", ".pdb", ".ent", ".cif", ".mmcif"}
+OWN_RADII = [".pqr", ".xyzr"]
 NEED_RADII = {".pdb", ".ent", ".cif", ".mmcif"}
 # Options of gaussmesh that are given by this script, and what has them here.
 OWN_OPTIONS = {"-o": "--extension", "--output": "--extension", "--report": "--output", "--threads": "--threads",
@@ -63,20 +67,34 @@ def name_of(path):
     return unpacked(path).stem
 
 
+def most_wanted(paths):
+    """Of files that would share a mesh the one with radii in it, PQR before XYZR; where two are alike, both."""
+    ranks = [OWN_RADII.index(kind(path)) if kind(path) in OWN_RADII else len(OWN_RADII) for path in paths]
+    return [path for path, rank in zip(paths, ranks) if rank == min(ranks)]
+
+
 def find_molecules(options):
-    """All molecules by name; two of one name are an error, since they would share a mesh."""
+    """All molecules by name, and what is left aside, by the same: files of a name would share a mesh. Where several are
+    alike nothing tells which of them is meant, and all of them are there."""
     files = []
     for item in options.molecules:
         files += sorted(p for p in item.iterdir() if kind(p) in SUFFIXES) if item.is_dir() else [item]
     if options.list:
         lines = map(str.strip, options.list.read_text(encoding="utf-8").splitlines())
         files += [pathlib.Path(line) for line in lines if line and not line.startswith("#")]
-    molecules = {}
+    found = {}
     for path in files:
-        other = molecules.setdefault(name_of(path), path)
-        if other.resolve() != path.resolve():
-            raise WrongUse(f"expected different names, got {other} and {path}")
-    return molecules
+        found.setdefault(name_of(path), {}).setdefault(path.resolve(), path)
+    molecules = {name: most_wanted(list(paths.values())) for name, paths in found.items()}
+    aside = {name: [path for path in paths.values() if path not in molecules[name]] for name, paths in found.items()}
+    return molecules, aside
+
+
+def tell_of_those_aside(molecules, aside):
+    for name, paths in aside.items():
+        taken = " and ".join(map(str, molecules[name]))
+        for path in paths:
+            print(f"{name}: skipped {path}, which would become the mesh of {taken}", file=sys.stderr)
 
 
 def needs_pdb2pqr(path, options):
@@ -86,7 +104,7 @@ def needs_pdb2pqr(path, options):
 def require_programs(molecules, options):
     """What is missing is told once, and not for each molecule; returns the version of gaussmesh."""
     wanted = {options.program}
-    if any(needs_pdb2pqr(path, options) for path in molecules.values()):
+    if any(needs_pdb2pqr(path, options) for paths in molecules.values() for path in paths if len(paths) == 1):
         wanted.add(options.pdb2pqr)
     for program in sorted(wanted):
         if not shutil.which(program):
@@ -181,9 +199,12 @@ def folder_to_work_in(options):
     return tempfile.TemporaryDirectory(prefix=".mesh_batch_", dir=options.output)
 
 
-def make_mesh(path, options):
+def make_mesh(paths, options):
     """Makes the mesh of one molecule, or keeps the one that is there; returns its row and which of the two."""
+    path, *others = paths
     name = name_of(path)
+    if others:
+        raise Failed(f"expected one molecule for a mesh, got {' and '.join(map(str, paths))}")
     if not path.is_file():
         raise Failed("no such file")
     stamp, origin = options.output / f".{name}.stamp", origin_of(path, options)
@@ -239,7 +260,7 @@ def write_tables(molecules, rows, failures, options):
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         writer.writerows(rows[name] for name in molecules if name in rows)
-    lines = [f"{molecules[name]}\t{reason}\n" for name, reason in failures.items()]
+    lines = [f"{molecules[name][0]}\t{reason}\n" for name, reason in failures.items()]
     reasons.write_text("".join(lines), encoding="utf-8", errors="surrogateescape")
 
 
@@ -256,7 +277,7 @@ def configs_in(words):
 
 
 def parse_arguments(arguments):
-    own, rest = (arguments[:arguments.index("--")], arguments[arguments.index("--") + 1:]) if "--" in arguments \
+    words, rest = (arguments[:arguments.index("--")], arguments[arguments.index("--") + 1:]) if "--" in arguments \
         else (arguments, [])
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                                      usage="%(prog)s [options] MOLECULES... --output FOLDER [-- OPTIONS OF gaussmesh]")
@@ -274,13 +295,13 @@ def parse_arguments(arguments):
     parser.add_argument("--threads", type=int, default=1, help="threads for each of them (default: 1)")
     parser.add_argument("--timeout", type=float, default=3600.0, help="seconds for each program (default: 3600)")
     parser.add_argument("--again", action="store_true", help="make all meshes anew")
-    options = parser.parse_args(own)
+    options = parser.parse_args(words)
     if options.jobs < 1 or options.threads < 0 or not options.timeout > 0:
         parser.error("--jobs: expected 1 or more, --threads: 0 or more, --timeout: more than 0")
     for word in rest:
-        own = OWN_OPTIONS.get("-o" if re.match("-o.", word) else word.split("=", 1)[0])
-        if own:
-            parser.error(f"expected {own} before --, got '{word}' behind it")
+        here = OWN_OPTIONS.get("-o" if re.match("-o.", word) else word.split("=", 1)[0])
+        if here:
+            parser.error(f"expected {here} before --, got '{word}' behind it")
     options.extension = "." + options.extension.removeprefix(".")
     options.rest, options.configs = rest, configs_in(rest)
     return options
@@ -290,7 +311,7 @@ def make_all(molecules, options):
     """All rows, why molecules have no mesh, and how many were kept. Those not begun when told to stop have failed."""
     failures, rows, kept = {name: "not reached" for name in molecules}, {}, 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        pending = {pool.submit(make_mesh, path, options): name for name, path in molecules.items()}
+        pending = {pool.submit(make_mesh, paths, options): name for name, paths in molecules.items()}
         try:
             for number, future in enumerate(concurrent.futures.as_completed(pending), start=1):
                 name = pending[future]
@@ -311,7 +332,7 @@ def main():
     options = parse_arguments(sys.argv[1:])
     script = pathlib.Path(sys.argv[0]).name
     try:
-        molecules = find_molecules(options)
+        molecules, aside = find_molecules(options)
         if not molecules:
             raise WrongUse("expected molecules, got none")
         options.version = require_programs(molecules, options)
@@ -319,6 +340,7 @@ def main():
     except (WrongUse, OSError, UnicodeDecodeError) as error:
         print(f"{script}: {error}", file=sys.stderr)
         return 2
+    tell_of_those_aside(molecules, aside)
     rows, failures, kept = make_all(molecules, options)
     said = f"{len(rows)} of {len(molecules)} molecules meshed, {len(rows) - kept} now and {kept} before"
     try:
