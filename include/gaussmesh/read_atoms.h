@@ -128,9 +128,11 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 ///
 /// ATOM and HETATM records, in any case, are read by their columns. They may be indented, and their serial number may
 /// take more than its columns, if the decimal points of the coordinates tell where the columns are then. The first
-/// model is taken, which ends at ENDMDL, END or the next MODEL, of each residue the alternate location that comes
-/// first, and no water (HOH, WAT, TIP3, SOL, ...); warnings count what is left out. Hydrogens are taken if they are
-/// there; none are added. Charges are 0. Behind END there may be other frames of the same atoms; what has other atoms
+/// model is taken, which ends at ENDMDL, END or the next MODEL, and no water (HOH, WAT, TIP3, SOL, ...). Of alternate
+/// locations each atom is taken at one: that which comes first in its residue, or if the atom has not got that, the
+/// first that it has. To have none counts as a location of atoms that also stand there with one. Of a residue that is
+/// of one kind at one location and of another at the next, the first kind is taken. Warnings count what is left out.
+/// Hydrogens are taken if they are there; none are added. Charges are 0. Behind END there may be other frames of the same atoms; what has other atoms
 /// was joined from several files, and is refused. A warning counts lines that are no records of PDB. Radii come from a
 /// file, as ReadOptions has it, or from a set:
 ///

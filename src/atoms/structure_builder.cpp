@@ -1,6 +1,7 @@
 #include "atoms/structure_builder.h"
 
 #include <cmath>
+#include <utility>
 
 #include "atoms/residue_names.h"
 #include "core/number_text.h"
@@ -33,10 +34,6 @@ bool StructureBuilder::is_taken(const AtomSite& site) {
     ++waters_;
     return false;
   }
-  if (!site.alternate.empty() && alternates_.try_emplace(site.site, site.alternate).first->second != site.alternate) {
-    ++other_locations_;
-    return false;
-  }
   return true;
 }
 
@@ -49,10 +46,11 @@ void StructureBuilder::add(const AtomSite& site) {
   }
   const auto radius = radii_.find(site.residue, site.name, site.element);
   if (!radius) {
-    missing_radii_.add(site);
-    return;
+    without_radius_.push_back(site);
+    their_places_.push_back(file_.atoms.size());
   }
-  file_.atoms.push_back({site.x, site.y, site.z, *radius, 0.0});
+  locations_.add(site.site, {site.name, site.residue, site.alternate});
+  file_.atoms.push_back({site.x, site.y, site.z, radius.value_or(0.0), 0.0});
   file_.lines.push_back(site.line);
   if (names_ == AtomNames::kLeaveOut) return;
   file_.names.push_back({std::string(site.name), std::string(site.residue), std::string(site.chain), site.number});
@@ -62,8 +60,29 @@ void StructureBuilder::end_model(std::size_t line) {
   if (has_model_ && !model_end_line_) model_end_line_ = line;
 }
 
+void StructureBuilder::take_one_location_each() {
+  const std::vector<bool> is_taken = locations_.choose();
+  MissingRadii missing_radii;
+  for (std::size_t i = 0; i < without_radius_.size(); ++i) {
+    if (is_taken[their_places_[i]]) missing_radii.add(without_radius_[i]);
+  }
+  missing_radii.require_none(radii_.name());
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < is_taken.size(); ++i) {
+    if (!is_taken[i]) continue;
+    file_.atoms[taken] = file_.atoms[i];
+    file_.lines[taken] = file_.lines[i];
+    if (names_ == AtomNames::kKeep && taken < i) file_.names[taken] = std::move(file_.names[i]);
+    ++taken;
+  }
+  file_.atoms.resize(taken);
+  file_.lines.resize(taken);
+  if (names_ == AtomNames::kKeep) file_.names.resize(taken);
+  other_locations_ = is_taken.size() - taken;
+}
+
 AtomFile StructureBuilder::finish() {
-  missing_radii_.require_none(radii_.name());
+  take_one_location_each();
   if (file_.atoms.empty()) {
     throw InputError(file_name_ + ": expected atoms, got none" + (waters_ > 0 ? " but of water" : ""));
   }

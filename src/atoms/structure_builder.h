@@ -4,12 +4,13 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "atoms/alternate_locations.h"
 #include "atoms/missing_radii.h"
 #include "atoms/radius_file.h"
 #include "gaussmesh/read_atoms.h"
@@ -35,14 +36,13 @@ struct AtomSite {
 /// `atom CA of residue GLY A 7`
 std::string name_of(const AtomSite& site);
 
-/// Takes the first model, of each residue the alternate location that comes first, and no water; counts what it
-/// leaves out.
+/// Takes the first model, of each atom one location (alternate_locations.h), and no water; counts what it leaves out.
 class StructureBuilder {
  public:
   StructureBuilder(std::string_view file, AtomRadii radii, AtomNames names)
       : file_name_(file), radii_(std::move(radii)), names_(names) {}
 
-  /// @throws InputError if a coordinate is out of range
+  /// The text that the names of `site` are in must outlive this. @throws InputError if a coordinate is out of range
   void add(const AtomSite& site);
 
   /// Ends the model of the atoms so far, in that line of the file; those added from now on are of other models. Does
@@ -55,16 +55,18 @@ class StructureBuilder {
 
  private:
   bool is_taken(const AtomSite& site);
+  void take_one_location_each();
 
   std::string file_name_;
   AtomRadii radii_;
   AtomNames names_;
   AtomFile file_;
-  MissingRadii missing_radii_;
+  AlternateLocations locations_;           // of the atoms in file_
+  std::vector<AtomSite> without_radius_;   // of these
+  std::vector<std::size_t> their_places_;  // in file_
   bool has_model_ = false;
-  std::string model_;                              // the first
-  std::optional<std::size_t> model_end_line_;      // of the first
-  std::map<std::string, std::string> alternates_;  // by residue: the one that is taken
+  std::string model_;                          // the first
+  std::optional<std::size_t> model_end_line_;  // of the first
   std::size_t other_models_ = 0;
   std::size_t other_locations_ = 0;
   std::size_t waters_ = 0;

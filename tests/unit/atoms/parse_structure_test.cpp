@@ -19,6 +19,7 @@ namespace {
 struct NamedAtom {
   std::string name, residue, number;
   Atom atom;
+  char alternate = '.';  // of mmCIF
 };
 
 std::vector<NamedAtom> read_named(const std::string& file) {
@@ -49,8 +50,8 @@ std::string mmcif_text(const std::vector<NamedAtom>& atoms) {
           "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.auth_seq_id\n"
           "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n";
   for (const NamedAtom& a : atoms)
-    text << "ATOM " << a.name[0] << " \"" << a.name << "\" . " << a.residue << " A " << a.number << " " << a.atom.x
-         << " " << a.atom.y << " " << a.atom.z << "\n";
+    text << "ATOM " << a.name[0] << " \"" << a.name << "\" " << a.alternate << " " << a.residue << " A " << a.number
+         << " " << a.atom.x << " " << a.atom.y << " " << a.atom.z << "\n";
   return text.str();
 }
 
@@ -268,6 +269,90 @@ TEST_CASE("the first model, the first of alternate locations, and no water") {
   CHECK(file.warnings[0] == "a.pdb: left out 1 atom of models other than the first, which ends in line 6");
   CHECK(file.warnings[1] == "a.pdb: left out 1 atom of water");
   CHECK(file.warnings[2] == "a.pdb: left out 1 atom at alternate locations other than the first");
+}
+
+namespace {
+
+/// The atom of a text such as `CB A GLY 8`, of which residue and number may be left out; at a location `.` it has none.
+NamedAtom located_atom(const std::string& text, std::size_t index) {
+  std::istringstream words(text);
+  NamedAtom atom = {"", "GLY", "1", {static_cast<double>(index), 0.0, 0.0, 0.0, 0.0}};
+  words >> atom.name >> atom.alternate >> atom.residue >> atom.number;
+  return atom;
+}
+
+/// The places in `atoms` of those that are read, the same from PDB and mmCIF.
+std::vector<int> places_taken(const std::vector<std::string>& atoms) {
+  std::vector<NamedAtom> named;
+  std::string pdb;
+  for (const std::string& text : atoms) {
+    named.push_back(located_atom(text, named.size()));
+    pdb += pdb_line(named.back(), named.back().alternate == '.' ? ' ' : named.back().alternate);
+  }
+  std::vector<std::vector<int>> places;
+  for (const AtomFile& file : {parse_pdb(pdb, "a", "bondi", {}, AtomNames::kKeep),
+                               parse_mmcif(mmcif_text(named), "a", "bondi", {}, AtomNames::kKeep)}) {
+    const std::size_t left_out = atoms.size() - file.atoms.size();
+    CHECK(file.warnings.size() == (left_out > 0 ? 1 : 0));
+    if (left_out > 0) CHECK_THAT(file.warnings.at(0), ContainsSubstring("out " + std::to_string(left_out) + " atom"));
+    places.emplace_back();
+    REQUIRE(file.names.size() == file.atoms.size());
+    REQUIRE(file.lines.size() == file.atoms.size());
+    for (std::size_t i = 0; i < file.atoms.size(); ++i) {
+      const int place = static_cast<int>(file.atoms[i].x);
+      places.back().push_back(place);
+      CHECK(file.names[i].name == named.at(place).name);
+      CHECK(file.lines[i] == static_cast<std::size_t>(place) + 1);
+    }
+  }
+  CHECK(places[0] == places[1]);
+  return places[0];
+}
+
+using Places = std::vector<int>;
+
+}  // namespace
+
+TEST_CASE("atoms of a residue are at the location that comes first in it, if they have that") {
+  CHECK(places_taken({"N .", "CB A", "CB B", "OG B", "OG A"}) == Places{0, 1, 4});
+  CHECK(places_taken({"N .", "CB B", "OG B", "CB A", "OG A"}) == Places{0, 1, 2});
+  CHECK(places_taken({"CB A", "CB B", "CB B GLY 2", "CB A GLY 2"}) == Places{0, 2});
+  CHECK(places_taken({"C A", "C A", "C B", "C B"}) == Places{0, 1});  // a ligand without numbers in its names
+}
+
+TEST_CASE("an atom that is not at the first location of its residue keeps the first that it has") {
+  CHECK(places_taken({"N .", "CB A", "CB B", "O C", "O D"}) == Places{0, 1, 3});
+  CHECK(places_taken({"N .", "CB A", "CG A", "CB B", "O B"}) == Places{0, 1, 2, 4});
+  CHECK(places_taken({"CB A", "CB B", "H B", "O B", "O C", "N D", "N C"}) == Places{0, 2, 4, 6});
+}
+
+TEST_CASE("of an atom without a location and the same with one, the first is taken") {
+  CHECK(places_taken({"CA .", "CZ .", "CZ B", "NH1 A", "NH1 B", "NH2 B", "NH2 A"}) == Places{0, 1, 3, 6});
+  CHECK(places_taken({"CZ B", "CZ .", "N A", "N B"}) == Places{0, 3});
+  CHECK(places_taken({"CB A", "CB B", "CZ .", "CZ A", "O .", "O B"}) == Places{0, 3, 4});
+  CHECK(places_taken({"CB .", "CB .", "N ."}) == Places{0, 1, 2});  // not through locations
+}
+
+TEST_CASE("of a residue that is of two kinds, the first is taken") {
+  CHECK(places_taken({"N A PRO", "CD A PRO", "N B SER", "OG B SER", "N . ALA 2"}) == Places{0, 1, 4});
+  CHECK(places_taken({"N A PRO", "N B SER", "CD A PRO", "OG B SER", "O ."}) == Places{0, 2, 4});
+  CHECK(places_taken({"N . SER", "OG . SER", "N B THR", "CG2 B THR"}) == Places{0, 1});
+  CHECK(places_taken({"N A SER", "N B SER", "N C THR", "OG B SER", "OG C THR"}) == Places{0, 3});
+}
+
+TEST_CASE("locations that stand apart in the file belong together, but not those of other residues of one number") {
+  CHECK(places_taken({"N .", "CB A", "N . ALA 2", "CB B", "CB B ALA 2"}) == Places{0, 1, 2, 4});
+  CHECK(places_taken({"N .", "CZ .", "N . ALA 2", "CZ B"}) == Places{0, 1, 2});
+  CHECK(places_taken({"N .", "CB A", "CB B", "N . ALA 2", "N . SER", "CB A SER", "CB B SER"}) == Places{0, 1, 3, 4, 5});
+  CHECK(places_taken({"N A", "N B", "N . ALA 2", "N A SER", "N B SER"}) == Places{0, 2, 3});
+}
+
+TEST_CASE("an atom at a location that is left out needs no radius") {
+  const NamedAtom iron = {"CA", "GLY", "7", {}};
+  std::string other = pdb_line(iron, 'B');
+  other.replace(other.size() - 3, 2, "XX");
+  CHECK(error_of(pdb_line(iron, 'A') + other) == "no error");
+  CHECK_THAT(error_of(other + pdb_line(iron, 'C')), ContainsSubstring("a.pdb:1: expected atoms that the radii"));
 }
 
 TEST_CASE("frames are models, however they are parted") {
