@@ -204,6 +204,26 @@ TEST_CASE("elements are known from names, or not at all") {
   CHECK(element_of_name(known.name, known.residue) == known.element);
 }
 
+TEST_CASE("ions are known in whatever columns by the name of their residue") {
+  struct Case {
+    const char* name;  // columns 13-16
+    const char* residue;
+    const char* element;
+  };
+  const Case known = GENERATE(values<Case>({
+      {" CL ", "CL", "CL"},  {" CL ", "CL-", "CL"}, {"CL- ", "CL-", "CL"}, {" CA ", "CA", "CA"},  {" CA ", "CA2", "CA"},
+      {" NA ", "NA", "NA"},  {" NA ", "NA+", "NA"}, {" NA+", "NA+", "NA"}, {" na ", "Na", "NA"},  {" CD ", "CD", "CD"},
+      {" CO ", "3CO", "CO"}, {" CS ", "CS", "CS"},  {" CU ", "CU1", "CU"}, {" NI ", "NI", "NI"},  {" HG ", "HG", "HG"},
+      {" BR ", "BR", "BR"},  {" MG ", "MG", "MG"},  {" ZN ", "ZN2", "ZN"}, {"ZN  ", "ZN", "ZN"},  {" SOD", "SOD", "NA"},
+      {"SOD ", "SOD", "NA"}, {" NA ", "SOD", "NA"}, {" CLA", "CLA", "CL"}, {" CAL", "CAL", "CA"}, {"POT ", "POT", "K"},
+      {" CES", "CES", "CS"}, {"RUB ", "RUB", "RB"}, {" CA ", "ALA", "C"},  {" NA ", "HEM", "N"},  {" CA ", "LIG", "C"},
+      {" CD ", "CA", "C"},   {" MG ", "CLA", "M"},  {" CA ", "CAN", "C"},  {" C  ", "C", "C"},    {" K  ", "K", "K"},
+      {" N  ", "NA", "N"},   {" H2 ", "H2", "H"},   {"    ", "", ""},      {" 12 ", "12", ""},
+  }));
+  CAPTURE(known.name, known.residue);
+  CHECK(element_of_name(known.name, known.residue) == known.element);
+}
+
 TEST_CASE("where the element stays open there is an error, but for radii that do without") {
   std::string line = pdb_line(kCarbon).substr(0, 66);
   line.replace(12, 4, "CA  ");
