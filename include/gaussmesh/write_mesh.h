@@ -26,7 +26,7 @@ struct MeshFormat {
 };
 
 /// All of them. Coordinates have nine decimals in text and 64 bits in binary formats, so that a reader gets back
-/// the bits that are in memory; only STL has 32 bits, and merges vertices nearer than that.
+/// the bits that are in memory; only binary STL has 32 bits, and merges vertices nearer than that.
 const std::vector<MeshFormat>& mesh_formats();
 
 struct WriteOptions {
@@ -81,7 +81,7 @@ class OutputFiles {
 /// | msms | normals (averaged over the triangles if not known), atoms from 1 (else 0), in the header their number |
 /// | ply, ply-ascii, vtp | normals, atoms and components from 0 |
 /// | obj | normals |
-/// | stl | none |
+/// | stl, stl-ascii | none |
 /// | gmsh22, gmsh41 | components from 1 as tags of the triangles; normals, atoms and components as NodeData |
 /// | smesh | components from 1 as markers; a point in each cavity (hole) and in each solid (region) |
 void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,

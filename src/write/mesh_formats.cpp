@@ -11,7 +11,7 @@ namespace {
 
 using enum HeldData;
 
-constexpr std::array<FormatEntry, 10> kFormats = {{
+constexpr std::array<FormatEntry, 11> kFormats = {{
     {"off", {".off"}, "vertices and triangles (AFMPB, DAFMPB, TetGen, bempp)", kNothing, {{{"", write_off}}}},
     {"msms",
      {".vert", ".face"},
@@ -21,7 +21,8 @@ constexpr std::array<FormatEntry, 10> kFormats = {{
     {"ply", {".ply"}, "binary, with normals, nearest atoms, components (MeshLab)", kAll, {{{"", write_ply_binary}}}},
     {"ply-ascii", {}, "the same as text", kAll, {{{"", write_ply_ascii}}}},
     {"obj", {".obj"}, "with normals (ChimeraX, Blender)", kNormals, {{{"", write_obj}}}},
-    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", kNothing, {{{"", write_stl}}}},
+    {"stl", {".stl"}, "binary; 32-bit coordinates, vertices not shared", kNothing, {{{"", write_stl_binary}}}},
+    {"stl-ascii", {}, "the same as text, with all decimals (TetGen)", kNothing, {{{"", write_stl_ascii}}}},
     {"gmsh22", {".msh"}, "Gmsh 2.2, a tag for each component, vertex data (bempp)", kAll, {{{"", write_gmsh_22}}}},
     {"gmsh41", {}, "the same as Gmsh 4.1", kAll, {{{"", write_gmsh_41}}}},
     {"smesh",

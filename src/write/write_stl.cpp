@@ -1,4 +1,5 @@
-// Binary STL: each triangle with its normal and three corners, all 32-bit floats. Vertices are not shared.
+// STL: each triangle with its normal and three corners; vertices are not shared. In binary all are 32-bit floats; as
+// text, which is what TetGen reads, corners have the decimals of all formats.
 //
 // https://www.fabbers.com/tech/STL_Format
 
@@ -37,7 +38,7 @@ FloatPoint unit_normal(const Point& a, const Point& b, const Point& c) {
 
 }  // namespace
 
-void write_stl(const MeshView& view, WholeFile& file) {
+void write_stl_binary(const MeshView& view, WholeFile& file) {
   const TriangleMesh& mesh = view.mesh;
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw OptionError("format 'stl': expected fewer than 2^32 triangles, got '" +
@@ -55,6 +56,21 @@ void write_stl(const MeshView& view, WholeFile& file) {
     for (const std::uint32_t v : mesh.triangles[i]) p = put_bytes(p, to_float(mesh.vertices[v]));
     return put_bytes(p, std::uint16_t{0});
   });
+}
+
+void write_stl_ascii(const MeshView& view, WholeFile& file) {
+  const TriangleMesh& mesh = view.mesh;
+  constexpr std::size_t kWords = 80;  // bytes of a facet that are no numbers
+  file.write("solid gaussmesh\n");
+  write_records(file, mesh.triangles.size(), kWords + 4 * kLongestPoint, [&](char* p, std::size_t i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    p = put_text(p, "facet normal ");
+    p = put_normal(p, unit_normal(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]), '\n');
+    p = put_text(p, "outer loop\n");
+    for (const std::uint32_t v : mesh.triangles[i]) p = put_point(put_text(p, "vertex "), mesh.vertices[v], '\n');
+    return put_text(p, "endloop\nendfacet\n");
+  });
+  file.write("endsolid gaussmesh\n");
 }
 
 }  // namespace gaussmesh

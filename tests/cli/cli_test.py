@@ -225,8 +225,8 @@ class WrongUse(CliTest):
                               (["--spacings", 0.5],
                                "expected an option of gaussmesh, got '--spacings'; did you mean '--spacing'?"),
                               (["--format", "mmcif"],
-                               "--format: expected off, msms, ply, ply-ascii, obj, stl, gmsh22, gmsh41, smesh, vtp, "
-                               "got 'mmcif'\n")]:
+                               "--format: expected off, msms, ply, ply-ascii, obj, stl, stl-ascii, gmsh22, gmsh41, "
+                               "smesh, vtp, got 'mmcif'\n")]:
             error = self.expect(WRONG_USE, self.molecule("methanol"), "-o", self.mesh, *options).stderr
             self.assertEqual(error[:len(said) + 11], "gaussmesh: " + said)
         for option in [["--spacing", 300], ["--density", 1e-5]]:

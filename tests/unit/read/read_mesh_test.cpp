@@ -113,6 +113,18 @@ TEST_CASE("STL gives back floats, welded where they are equal and only there") {
   CHECK(again.mesh.triangles == back.mesh.triangles);
 }
 
+TEST_CASE("STL as text gives back the bits") {
+  const MeshFile file = sample();
+  const MeshFile back = write_and_read(file, "stl-ascii", "m.stl");
+  CHECK(back.mesh.vertices.size() == file.mesh.vertices.size());
+  REQUIRE(back.mesh.triangles.size() == file.mesh.triangles.size());
+  for (std::size_t t = 0; t < back.mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      CHECK(back.mesh.vertices[back.mesh.triangles[t][k]] == file.mesh.vertices[file.mesh.triangles[t][k]]);
+  const MeshFile needle = {{{{-1e300, -1e-300, 1.0 / 3}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}};
+  CHECK(write_and_read(needle, "stl-ascii", "m.stl").mesh.vertices == needle.mesh.vertices);
+}
+
 TEST_CASE("vertex data come back where the format holds them") {
   const MeshFile file = sample();
   for (const auto& [format, name] : {std::pair{"ply", "m.ply"}, {"ply-ascii", "m.ply"}}) {
