@@ -32,7 +32,8 @@ struct MeshFile {
 /// - Gmsh: versions 2.2 and 4.1, in ASCII and in binary with the least significant byte first. Triangles of 3 nodes are
 ///   kept, points, lines and solids passed over; then nodes in no triangle are left out. Triangles of more nodes and
 ///   quadrangles are refused, and a file that has elements but no triangles.
-/// - smesh: nodes and facets of one triangle each, counted from 0 or from 1.
+/// - smesh: nodes and facets of one triangle each, counted from 0 or from 1. Where it has no nodes, as TetGen writes
+///   it, they are those of the .node file beside it that are in a triangle.
 /// - VTP: triangles of all pieces; arrays as text, in base64 or as they are in memory, plain or by zlib, in the element
 ///   or appended. Normals, and arrays `atom` and `component` of whole numbers, are kept; vertices and lines are passed
 ///   over. Strips, and data by LZ4 or LZMA, are refused.

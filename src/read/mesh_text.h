@@ -108,6 +108,9 @@ inline Normal to_normal(const Point& p) {
 /// Throws InputError if there is nothing but blanks.
 void require_content(std::string_view bytes, std::string_view name);
 
+/// Leaves out the vertices that are in no triangle. A number of one that is not there stays too large.
+void leave_out_unused_vertices(TriangleMesh& mesh);
+
 /// Whether the length is that of the binary STL that is announced there: headers may begin with "solid" too.
 bool is_binary_stl(std::string_view bytes);
 
@@ -116,6 +119,8 @@ MeshFile parse_obj(std::string_view text, std::string_view name);
 MeshFile parse_off(std::string_view bytes, std::string_view name);
 MeshFile parse_ply(std::string_view bytes, std::string_view name);
 MeshFile parse_smesh(std::string_view text, std::string_view name);
+/// The same where the nodes are in a file of their own, as where TetGen wrote it.
+MeshFile parse_smesh(std::string_view text, std::string_view name, std::string_view nodes, std::string_view nodes_name);
 MeshFile parse_stl(std::string_view bytes, std::string_view name);
 MeshFile parse_vtp(std::string_view bytes, std::string_view name);
 

@@ -28,7 +28,7 @@ class GmshParser {
     if (!has_nodes_ || !has_elements_) input_.fail_at_line("the sections $Nodes and $Elements");
     if (has_other_elements_) {
       require_triangles();
-      leave_out_unused_nodes();
+      leave_out_unused_vertices(file_.mesh);
     }
     return std::move(file_);
   }
@@ -191,22 +191,6 @@ class GmshParser {
     if (!file_.mesh.triangles.empty()) return;
     throw InputError(std::string(name_) +
                      ": expected triangles, got points, lines or solids alone; save the surface too");
-  }
-
-  void leave_out_unused_nodes() {
-    constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place(file_.mesh.vertices.size(), kUnused);
-    for (const Triangle& triangle : file_.mesh.triangles)
-      for (const std::uint32_t v : triangle) place[v] = 0;
-    std::vector<Point> used;
-    for (std::size_t v = 0; v < place.size(); ++v) {
-      if (place[v] == kUnused) continue;
-      place[v] = static_cast<std::uint32_t>(used.size());
-      used.push_back(file_.mesh.vertices[v]);
-    }
-    for (Triangle& triangle : file_.mesh.triangles)
-      for (std::uint32_t& v : triangle) v = place[v];
-    file_.mesh.vertices = std::move(used);
   }
 
   template <class Binary>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
@@ -68,21 +69,51 @@ std::string sibling(std::string name, std::string_view from, std::string_view to
   return name.replace(without_gzip(name).size() - from.size(), from.size(), to);
 }
 
+std::string read_mesh_file(const std::filesystem::path& path) { return read_file(path, ReadFor::kMesh); }
+
 /// Reads the file of MSMS that is named and the one beside it.
 MeshFile read_msms(const std::string& name) {
   const bool is_vertices = has_extension(name, ".vert");
   const std::string other = is_vertices ? sibling(name, ".vert", ".face") : sibling(name, ".face", ".vert");
-  const std::string named_text = read_file(name);
+  const std::string named_text = read_mesh_file(name);
   if (!std::filesystem::exists(other)) {
     throw InputError(name + ": expected MSMS, with " + (is_vertices ? "faces" : "vertices") + " in '" + other +
                      "', got no such file" + (is_vertices ? "" : "; of TetGen, .smesh files are read"));
   }
-  const std::string other_text = read_file(other);
+  const std::string other_text = read_mesh_file(other);
   return is_vertices ? parse_msms(named_text, name, other_text, other)
                      : parse_msms(other_text, other, named_text, name);
 }
 
+/// Reads a .smesh, and the .node file beside it where it says that it has no nodes.
+MeshFile read_smesh(const std::string& name) {
+  const std::string text = read_mesh_file(name);
+  MeshLines lines(text, name);
+  const bool has_no_nodes = lines.next() && begins_smesh(lines.fields()) && lines.fields()[0] == "0";
+  const std::string nodes = sibling(name, ".smesh", ".node");
+  if (!has_no_nodes || !std::filesystem::exists(nodes)) return parse_mesh(text, name);
+  const std::string nodes_text = read_mesh_file(nodes);
+  return parse_smesh(require_text(text, name), name, require_text(nodes_text, nodes), nodes);
+}
+
 }  // namespace
+
+void leave_out_unused_vertices(TriangleMesh& mesh) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      if (v < place.size()) place[v] = 0;
+  std::vector<Point> used;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == kUnused) continue;
+    place[v] = static_cast<std::uint32_t>(used.size());
+    used.push_back(mesh.vertices[v]);
+  }
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& v : triangle) v = v < place.size() ? place[v] : kUnused;
+  mesh.vertices = std::move(used);
+}
 
 void require_content(std::string_view bytes, std::string_view name) {
   if (bytes.find_first_not_of(" \t\v\f\r\n") == std::string_view::npos) {
@@ -101,12 +132,15 @@ MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
   return parse_by_content(bytes, name);
 }
 
-MeshFile read_mesh(std::istream& input, std::string_view name) { return parse_mesh(read_stream(input, name), name); }
+MeshFile read_mesh(std::istream& input, std::string_view name) {
+  return parse_mesh(read_stream(input, name, ReadFor::kMesh), name);
+}
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (has_extension(name, ".vert") || has_extension(name, ".face")) return read_msms(name);
-  return parse_mesh(read_file(path), name);
+  if (has_extension(name, ".smesh")) return read_smesh(name);
+  return parse_mesh(read_mesh_file(path), name);
 }
 
 }  // namespace gaussmesh

@@ -132,24 +132,26 @@ bool ends_in(std::string_view name, std::string_view ending) {
 }
 
 /// Throws InputError for compressed data of the kinds that are not expanded here.
-void require_known_compression(std::string_view data, std::string_view name) {
+void require_known_compression(std::string_view data, std::string_view name, ReadFor purpose) {
+  const bool is_mesh = purpose == ReadFor::kMesh;
   for (const Compression& kind : kUnknownCompressions) {
     if (data.size() < kind.offset || !data.substr(kind.offset).starts_with(kind.magic)) continue;
     throw InputError(std::string(name) + ": expected plain or gzipped data, got " + std::string(kind.name) +
                      "; expand it first, or on the way to standard input as in '" + std::string(kind.program) +
-                     " FILE | gaussmesh -', with --input-format for molecules that are not PQR");
+                     (is_mesh ? " FILE | gaussmesh check -'"
+                              : " FILE | gaussmesh -', with --input-format for molecules that are not PQR"));
   }
 }
 
-std::string expand(std::string data, std::string_view name) {
+std::string expand(std::string data, std::string_view name, ReadFor purpose) {
   if (data.starts_with(kGzipMagic)) return GzipReader(data, name).expand();
-  require_known_compression(data, name);
+  require_known_compression(data, name, purpose);
   return data;
 }
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, ReadFor purpose) {
   const std::string name = path.string();
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
@@ -161,10 +163,12 @@ std::string read_file(const std::filesystem::path& path) {
     fail_to_read(name, errno != 0 ? std::generic_category().message(errno) : "an unknown error");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return expand(read_all(input, name, error ? 0 : size), name);  // a pipe has no size
+  return expand(read_all(input, name, error ? 0 : size), name, purpose);  // a pipe has no size
 }
 
-std::string read_stream(std::istream& input, std::string_view name) { return expand(read_all(input, name, 0), name); }
+std::string read_stream(std::istream& input, std::string_view name, ReadFor purpose) {
+  return expand(read_all(input, name, 0), name, purpose);
+}
 
 std::string_view without_gzip(std::string_view name) {
   constexpr std::string_view kEnding = ".gz";

@@ -200,6 +200,22 @@ class TetGen(FormatTest):
         self.assertAlmostEqual(volume / signed_volume(*read_off(self.folder / "shell.off")), 1.0, delta=1e-5)
         self.assertEqual(len(regions), 3)
 
+    def test_its_surfaces_are_read(self):
+        """Of OFF it makes a .smesh with nodes in a .node file, those inside the solid too."""
+        self.expect(0, self.molecule("methanol"), "-o", "p.off")
+        subprocess.run(["tetgen", "-pYq", "p.off"], cwd=self.folder, capture_output=True, timeout=280, check=True)
+        nodes = int((self.folder / "p.1.node").read_text().split()[0])
+        self.assertGreater(nodes, len(read_off(self.folder / "p.off")[0]))
+        said = json.loads(self.expect(0, "compare", "p.off", "p.1.smesh", "--json", "-").stdout)
+        self.assertLess(said["hausdorff_A"], 1e-9)
+        self.expect(0, "check", "p.1.smesh")
+
+    def test_reads_stl_as_text(self):
+        self.expect(0, self.molecule("methanol"), "--format", "stl-ascii", "-o", "p.stl")
+        self.expect(0, self.molecule("methanol"), "-o", "p.off")
+        volume, _ = self.tetrahedra("p.stl")
+        self.assertAlmostEqual(volume / signed_volume(*read_off(self.folder / "p.off")), 1.0, delta=1e-5)
+
     def test_reads_off(self):
         # Without holes it fills the cavity too.
         volume, _ = self.tetrahedra("m.off")
