@@ -29,7 +29,7 @@ CheckFindings find_all(const CheckCommand& command) {
   if (!is_measurable) return found;
   found.distance = distance_to_surface(mesh, atoms, surface.decay, surface.isovalue);
   found.two_sided = two_sided_distance(mesh, atoms, surface.decay, surface.isovalue);
-  found.charges_outside = find_charges_outside(mesh, found.mesh, atoms);
+  if (all_are_closed(found.mesh)) found.charges_outside = find_charges_outside(mesh, found.mesh, atoms);
   return found;
 }
 

@@ -78,7 +78,9 @@ std::string defects_text(const CheckFindings& found) {
   const MeshCheck& mesh = found.mesh;
   std::string text = "Defects\n";
   for (const Defect& defect : defects_of(found)) text += line("  %-49s %11zu\n", defect.text, defect.count);
-  if (!all_are_closed(mesh)) text += "  a surface is not closed: which ones turn the wrong way is not known\n";
+  if (!all_are_closed(mesh))
+    text += std::string("  a surface is not closed: which ones turn the wrong way") +
+            (found.tolerance ? ", and which charges are outside," : "") + " is not known\n";
   const std::size_t inward = count_inverted(mesh, Side::kOutside);
   if (inward > 0 && inward == mesh.components.size())
     text += "  all surfaces turn inwards: is this a cavity by itself, as --cavities separate writes it?\n";

@@ -18,7 +18,7 @@ struct CheckFindings {
   std::optional<double> tolerance;            ///< of the vertices' distance (A); there if a molecule was given
   std::optional<SurfaceDistance> distance;    ///< from the molecule's surface; missing too where it cannot be measured
   std::optional<TwoSidedDistance> two_sided;  ///< likewise
-  std::optional<std::vector<std::uint32_t>> charges_outside;  ///< atoms; likewise
+  std::optional<std::vector<std::uint32_t>> charges_outside;  ///< atoms; likewise, and if it is not closed
   double separation = 0.0;                                    ///< of the vertices (A)
   bool separation_is_required = false;                        ///< nearer ones are a defect, and not only told
   std::optional<NearVertices> near;                           ///< nearer than that; missing where it cannot be measured

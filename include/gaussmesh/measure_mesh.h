@@ -39,7 +39,7 @@ AtomMeasures measure_by_atoms(const TriangleMesh& mesh, const std::vector<Atom>&
 /// no solid part, that is, inside of an even number of closed components. In rising order.
 ///
 /// Exact, as check_mesh() is; a centre on the very surface is moved by an infinitesimal step. What is not closed
-/// does not count.
+/// does not count: where a component is not closed, charges in it are told too.
 ///
 /// @param mesh   every vertex number is there, all coordinates are finite
 /// @param check  of this mesh

@@ -919,6 +919,16 @@ class CheckForSolvers(CliTest):
         self.assertIn("1 charge outside the mesh", said.splitlines()[-1])
         self.assertEqual(self.findings(molecule, "--d", 0.6, "--c", 1.7, code=CHECK_FAILED)["charges_outside"], [0])
 
+    def test_charges_are_not_judged_by_a_mesh_with_a_hole(self):
+        lines = self.mesh.read_text().splitlines()
+        vertices, triangles, _ = map(int, lines[1].split())
+        self.mesh.write_text("\n".join(["OFF", f"{vertices} {triangles - 1} 0", *lines[2:-1], ""]))
+        said = self.expect(CHECK_FAILED, "check", self.mesh, self.molecule("dmso")).stdout
+        self.assertIn("which ones turn the wrong way, and which charges are outside, is not known\n", said)
+        self.assertNotIn("outside the mesh", said)
+        self.assertIsNone(self.findings(self.molecule("dmso"), code=CHECK_FAILED)["charges_outside"])
+        self.assertNotIn("charges", self.expect(CHECK_FAILED, "check", self.mesh).stdout)
+
     def test_vertices_that_are_too_near(self):
         near = self.findings("--min-separation", 1e-9)["near_vertices"]
         self.assertEqual((near["separation_A"], near["pairs"], near["short_edges"]), (1e-9, 0, 0))
