@@ -42,12 +42,12 @@ std::string comparison_json(const CompareCommand& command, const MeshComparison&
 CLI::App* add_compare_command(CLI::App& program, CompareCommand& command) {
   CLI::App* app = program.add_subcommand("compare", "measure how far two meshes are from each other");
   app->add_option("A", command.first, "mesh, in any format that convert reads; -: standard input")
-      ->type_name("MESH")
+      ->type_name("A")
       ->check(file_name())
       ->required();
-  app->add_option("B", command.second, "the other mesh")->type_name("MESH")->check(file_name())->required();
+  app->add_option("B", command.second, "the other mesh")->type_name("B")->check(file_name())->required();
   app->add_option("--density", command.options.samples_per_A2,
-                  "samples on each area of the surfaces (1/A^2, > 0; default: 25)")
+                  "samples per area of the surfaces (1/A^2, > 0; default: 25)")
       ->type_name("N")
       ->check(positive_number());
   add_json_option(*app, command.json);

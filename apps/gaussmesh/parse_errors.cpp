@@ -65,8 +65,7 @@ std::string too_many_words(const CLI::App& program, std::vector<std::string> ext
     extras.erase(mark);
   }
   const std::string got = join_names(quoted(extras), ", ") + end;
-  if (&called(program) != &program)
-    return "gaussmesh " + called(program).get_name() + ": expected no further file, got " + got;
+  if (&called(program) != &program) return called(program).get_name() + ": expected no further file, got " + got;
   const std::vector<std::string> molecule = program.get_option("molecule")->results();
   return "expected one molecule, got " + join_names(quoted(molecule), ", ") + " and " + got;
 }
@@ -81,7 +80,7 @@ const CLI::Option* option_of(const CLI::App& program, const std::string& message
   return nullptr;
 }
 
-/// What a command needs and what it got, such as `gaussmesh compare: expected MESH MESH, got 'a.off'`.
+/// What a command needs and what it got, such as `compare: expected A B, got 'a.off'`.
 std::string missing_words(const CLI::App& command) {
   std::vector<std::string> wanted, got;
   for (const CLI::Option* option : command.get_options()) {
@@ -89,7 +88,7 @@ std::string missing_words(const CLI::App& command) {
     wanted.push_back(value_name(*option));
     for (const std::string& word : option->results()) got.push_back(word);
   }
-  return "gaussmesh " + command.get_name() + ": expected " + join_names(wanted, " ") + ", got " +
+  return command.get_name() + ": expected " + join_names(wanted, " ") + ", got " +
          (got.empty() ? "nothing" : join_names(quoted(got), ", "));
 }
 

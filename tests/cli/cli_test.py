@@ -232,13 +232,13 @@ class WrongUse(CliTest):
         for option in [["--spacing", 300], ["--density", 1e-5]]:
             self.expect(0, self.molecule("methanol"), "--raw", *option, "-o", self.mesh)
         error = self.expect(WRONG_USE, "check", self.mesh, self.molecule("methanol"), "third").stderr
-        self.assertIn("gaussmesh check: expected no further file, got 'third'", error)
+        self.assertIn("gaussmesh: check: expected no further file, got 'third'", error)
 
     def test_what_is_missing_or_does_not_go_together_is_told(self):
         molecule, write = self.molecule("methanol"), ["-o", self.mesh]
         for arguments, said in [
-                (["compare", "a.off"], "gaussmesh compare: expected MESH MESH, got 'a.off'"),
-                (["convert"], "gaussmesh convert: expected MESH OUT..., got nothing"),
+                (["compare", "a.off"], "compare: expected A B, got 'a.off'"),
+                (["convert"], "convert: expected MESH OUT..., got nothing"),
                 ([molecule, "-o"], "--output: expected FILE behind it, got nothing"),
                 (["check", "a.off", "--json"], "--json: expected FILE behind it, got nothing"),
                 ([molecule, *write, "--threads", "1.5"],
@@ -275,7 +275,7 @@ class WrongUse(CliTest):
         self.refused("--", "mol.pqr", "-o", "b.off", names="^gaussmesh: expected one molecule, got 'mol.pqr' and '-o', "
                                                            "'b.off'; nothing behind -- is an option\n")
         self.refused("check", "--", "a.off", "a.pqr", "--json",
-                     names="gaussmesh check: expected no further file, got '--json'; nothing behind -- is an option\n")
+                     names="gaussmesh: check: expected no further file, got '--json'; nothing behind -- is an option\n")
         self.refused("--raww", "--", "a", "b", names="^gaussmesh: expected an option of gaussmesh, got '--raww'; did")
 
     def test_check_of_nothing(self):
