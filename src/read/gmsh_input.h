@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/number_text.h"
 #include "gaussmesh/error.h"
 #include "read/mesh_text.h"
 
@@ -122,7 +123,7 @@ class BinaryGmshInput {
     Point point{};
     for (double& x : point) {
       x = number<double>();
-      if (!std::isfinite(x)) fail(expected, std::to_string(x));
+      if (!std::isfinite(x)) fail(expected, number_text(x));
     }
     return point;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/number_text.h"
 #include "read/mesh_text.h"
 #include "read/vtk_arrays.h"
 
@@ -77,7 +78,7 @@ class VtpParser {
     for (std::size_t i = 0; i < numbers.size(); i += 3) {
       const Point point = {numbers[i], numbers[i + 1], numbers[i + 2]};
       for (const double x : point)
-        if (!std::isfinite(x)) xml_.fail(piece, "finite coordinates", std::to_string(x));
+        if (!std::isfinite(x)) xml_.fail(piece, "finite coordinates", number_text(x));
       file_.mesh.vertices.push_back(point);
     }
   }
@@ -86,7 +87,7 @@ class VtpParser {
     const std::vector<double> ends = require_array(piece, "Polys", "offsets", triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
       if (ends[i] != static_cast<double>(3 * (i + 1)))
-        xml_.fail(piece, "polygons of three corners alone, offsets 3, 6, 9, ...", std::to_string(ends[i]));
+        xml_.fail(piece, "polygons of three corners alone, offsets 3, 6, 9, ...", number_text(ends[i]));
     }
     const std::vector<double> corners = require_array(piece, "Polys", "connectivity", 3 * triangles);
     // Of the only piece the numbers are those of the mesh, which check_mesh() judges.
@@ -95,7 +96,7 @@ class VtpParser {
       Triangle triangle{};
       for (std::size_t k = 0; k < 3; ++k) {
         const double corner = corners[i + k];
-        if (!(corner >= 0.0 && corner < end)) xml_.fail(piece, "numbers of points", std::to_string(corner));
+        if (!(corner >= 0.0 && corner < end)) xml_.fail(piece, "numbers of points", number_text(corner));
         triangle[k] = static_cast<std::uint32_t>(first + static_cast<std::size_t>(corner));
       }
       file_.mesh.triangles.push_back(triangle);

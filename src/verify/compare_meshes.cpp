@@ -11,6 +11,7 @@
 #include "gaussmesh/error.h"
 #include "verify/exact_orientation.h"
 #include "verify/nearest_triangle.h"
+#include "verify/number_text.h"
 #include "verify/parallel.h"
 #include "verify/triangle_tree.h"
 #include "verify/vector3.h"
@@ -31,7 +32,7 @@ void require_usable(const TriangleMesh& mesh, const char* which) {
                          std::to_string(vertex) + " that triangle " + std::to_string(t) + " names");
       for (const double x : mesh.vertices[vertex])
         if (!(std::abs(x) <= kLargestExact))
-          throw InputError(name + "expected coordinates within 1e60 A, got '" + std::to_string(x) + "' for vertex " +
+          throw InputError(name + "expected coordinates within 1e60 A, got '" + text_of(x) + "' for vertex " +
                            std::to_string(vertex));
     }
 }
@@ -167,8 +168,8 @@ void require_density(const TriangleMesh& mesh, double density) {
     const Point& corner = mesh.vertices[a];
     const double area = length(cross(difference(mesh.vertices[b], corner), difference(mesh.vertices[c], corner))) / 2;
     if (!(area * density <= kMostSamples))
-      throw OptionError("samples per A^2: expected at most 2^20 samples in a triangle, got a triangle of " +
-                        std::to_string(area) + " A^2");
+      throw OptionError("samples per A^2: expected at most 2^20 samples in a triangle, got '" + text_of(density) +
+                        "' and a triangle of " + text_of(area) + " A^2");
   }
 }
 
@@ -183,7 +184,7 @@ double MeshComparison::hausdorff_bound() const {
 MeshComparison compare_meshes(const TriangleMesh& first, const TriangleMesh& second, const CompareOptions& options) {
   const double density = options.samples_per_A2;
   if (!(density > 0.0) || std::isinf(density))
-    throw OptionError("samples per A^2: expected a number > 0, got '" + std::to_string(density) + "'");
+    throw OptionError("samples per A^2: expected a number > 0, got '" + text_of(density) + "'");
   require_usable(first, "first");
   require_usable(second, "second");
   require_density(first, density);

@@ -9,6 +9,7 @@
 #include "gaussmesh/error.h"
 #include "gaussmesh/measure_mesh.h"
 #include "verify/bounding_box.h"
+#include "verify/number_text.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh {
@@ -112,7 +113,7 @@ std::vector<double> mean_edges(const TriangleMesh& mesh) {
 NearVertices find_near_vertices(const TriangleMesh& mesh, double distance) {
   constexpr std::size_t kExamples = 10;
   if (!(distance > 0.0) || std::isinf(distance))
-    throw OptionError("distance: expected a number > 0, got '" + std::to_string(distance) + "'");
+    throw OptionError("distance: expected a number > 0, got '" + text_of(distance) + "'");
   NearVertices result;
   CubeTable table(mesh.vertices, distance);
   const std::vector<double> edges = mean_edges(mesh);

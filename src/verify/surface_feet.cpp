@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gaussmesh/error.h"
+#include "verify/number_text.h"
 #include "verify/vector3.h"
 
 namespace gaussmesh::verify {
@@ -150,7 +151,7 @@ bool is_short(const BoundingBox& box, double side) {
 
 void require_positive(double value, const char* what) {
   if (!(value > 0.0) || std::isinf(value))
-    throw OptionError(std::string(what) + ": expected a number > 0, got '" + std::to_string(value) + "'");
+    throw OptionError(std::string(what) + ": expected a number > 0, got '" + text_of(value) + "'");
 }
 
 }  // namespace

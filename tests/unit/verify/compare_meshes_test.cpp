@@ -127,12 +127,18 @@ TEST_CASE("what cannot be compared is refused") {
   TriangleMesh bad = cube(1);
   CHECK_THROWS_AS(compare_meshes({}, bad), InputError);
   CHECK_THROWS_AS(compare_meshes(bad, bad, {0.0}), OptionError);
-  CHECK_THROWS_AS(compare_meshes(bad, bad, {1e9}), OptionError);
+  CHECK_THROWS_WITH(compare_meshes(bad, bad, {-1e-30}), "samples per A^2: expected a number > 0, got '-1e-30'");
+  CHECK_THROWS_WITH(
+      compare_meshes(bad, bad, {1e30}),
+      "samples per A^2: expected at most 2^20 samples in a triangle, got '1e+30' and a triangle of 2 A^2");
   bad.triangles[3][1] = 99;
   CHECK_THROWS_AS(compare_meshes(cube(1), bad), InputError);
   bad = cube(1);
   bad.vertices[2][1] = std::nan("");
   CHECK_THROWS_AS(compare_meshes(bad, cube(1)), InputError);
+  bad.vertices[2][1] = 1e300;
+  CHECK_THROWS_WITH(compare_meshes(bad, cube(1)),
+                    Catch::Matchers::ContainsSubstring("within 1e60 A, got '1e+300' for"));
 }
 
 TEST_CASE("comparisons are the same to the last bit for any number of threads") {

@@ -136,6 +136,7 @@ TEST_CASE("short edges are counted once each") {
   CHECK(find_near_vertices(mesh, 3.0).short_edges == 18);
   CHECK(find_near_vertices(mesh, 3.0).pairs == 24);  // the other diagonals of the faces too
   CHECK(find_near_vertices(mesh, 3.0).crowded == 0);
+  CHECK_THROWS_WITH(find_near_vertices(mesh, -1e-9), "distance: expected a number > 0, got '-1e-09'");
   CHECK_THROWS_AS(find_near_vertices(mesh, 0.0), OptionError);
   CHECK_THROWS_AS(find_near_vertices(mesh, std::nan("")), OptionError);
 }

@@ -149,7 +149,7 @@ TEST_CASE("an empty mesh has no distance, and bad options are refused") {
   const std::vector<Atom> atoms{{0, 0, 0, 1.5, 0}};
   CHECK(distance_to_surface({}, atoms, 0.6, 1.0).max_vertex_distance == 0.0);
   CHECK_THROWS_AS(distance_to_surface({}, atoms, 0.0, 1.0), OptionError);
-  CHECK_THROWS_AS(distance_to_surface({}, atoms, 0.6, -1.0), OptionError);
+  CHECK_THROWS_WITH(distance_to_surface({}, atoms, 0.6, -1e-9), "isovalue: expected a number > 0, got '-1e-09'");
   CHECK_THROWS_AS(distance_to_surface({}, atoms, 0.6, std::nan("")), OptionError);
   CHECK_THROWS_AS(distance_to_surface({}, {}, 0.6, 1.0), OptionError);
 }
