@@ -51,9 +51,9 @@ CLI::App* add_convert_command(CLI::App& program, ConvertCommand& command) {
 int run_convert(const ConvertCommand& command) {
   WriteOptions writing = command.writing;
   require_header_to_leave_out(command.outputs, writing);
+  const std::vector<std::string> outputs = without_second_names(command.outputs, writing);
   // The mesh itself may be written over: all of it has been read by then.
-  require_writable_outputs(command.outputs, "", writing,
-                           files_of_molecule(command.molecule.value_or(""), command.reading));
+  require_writable_outputs(outputs, "", writing, files_of_molecule(command.molecule.value_or(""), command.reading));
   writing.threads = take_threads(command.writing.threads);
   MeshFile file = read_mesh_argument(command.input);
   const MeshCheck check = check_mesh(file.mesh);
@@ -67,11 +67,11 @@ int run_convert(const ConvertCommand& command) {
     file.data.atoms = find_nearest_atoms(file.mesh, atoms, writing.threads);
     file.data.atom_count = atoms.size();
   }
-  if (file.data.normals.empty() && needs_normals(command.outputs, writing)) {
+  if (file.data.normals.empty() && needs_normals(outputs, writing)) {
     file.data.normals = average_normals(file.mesh);
   }
   OutputFiles files;
-  for (const std::string& output : command.outputs) files.add_mesh(file.mesh, file.data, output, writing);
+  for (const std::string& output : outputs) files.add_mesh(file.mesh, file.data, output, writing);
   files.commit();
   return kGood;
 }

@@ -282,8 +282,9 @@ void add_mesh_options(CLI::App& program, MeshCommand& command) {
   add_running_group(program, command);
 }
 
-int run_mesh(const MeshCommand& command) {
+int run_mesh(MeshCommand command) {
   require_sense(command);
+  command.outputs = without_second_names(command.outputs, command.writing);
   require_writable_files(command, 1);
   if (command.max_memory > 0) limit_memory(command.max_memory, folder_of_temporary(command.outputs.front()));
   const int threads =

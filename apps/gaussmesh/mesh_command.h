@@ -37,6 +37,6 @@ std::vector<std::string> cavity_choices();
 void add_mesh_options(CLI::App& program, MeshCommand& command);
 
 /// Reads, meshes, writes and says so. @return the exit code
-int run_mesh(const MeshCommand& command);
+int run_mesh(MeshCommand command);
 
 }  // namespace gaussmesh::app

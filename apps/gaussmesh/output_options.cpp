@@ -52,6 +52,18 @@ void require_header_to_leave_out(const std::vector<std::string>& outputs, const 
                     std::string(format_of(outputs.front(), writing).name) + " for '" + outputs.front() + "'");
 }
 
+std::vector<std::string> without_second_names(const std::vector<std::string>& outputs, const WriteOptions& writing) {
+  std::vector<std::string> kept;
+  for (const std::string& output : outputs) {
+    const auto files = files_of(output, writing);
+    const auto is_other_name = [&](const std::string& name) {
+      return name != output && files.size() > 1 && files_of(name, writing) == files;
+    };
+    if (std::none_of(kept.begin(), kept.end(), is_other_name)) kept.push_back(output);
+  }
+  return kept;
+}
+
 void require_files(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   if (std::count(inputs.begin(), inputs.end(), "-") > 1)
     throw OptionError("expected '-' for one of the inputs, got it for two: standard input can be read once");

@@ -17,6 +17,11 @@ std::vector<CLI::Option*> add_format_options(CLI::App& command, WriteOptions& wr
 /// which are at least one, is MSMS
 void require_header_to_leave_out(const std::vector<std::string>& outputs, const WriteOptions& writing);
 
+/// The outputs without those that are an earlier one by its other name: a.vert and a.face are the same files of MSMS.
+///
+/// @throws OptionError for an unknown format
+std::vector<std::string> without_second_names(const std::vector<std::string>& outputs, const WriteOptions& writing);
+
 /// Finds out before the work what cannot be read and written; names may be empty.
 ///
 /// @throws OptionError where two inputs are standard input, two outputs are one file, or an output is one of the inputs

@@ -412,6 +412,17 @@ class Names(CliTest):
         self.expect(BAD_INPUT, self.molecule("methanol"), "-o", "good.off", "-o", "no/such/folder.off")
         self.assertEqual(self.files(), [])
 
+    def test_both_files_of_msms_may_be_named(self):
+        both = ["-o", "a.vert", "-o", "a.face"]
+        said = self.expect(0, self.molecule("methanol"), *both, "-o", "a.off")
+        self.assertTrue(said.stdout.startswith("a.vert: "))
+        self.assertEqual(self.files(), ["a.face", "a.off", "a.vert"])
+        self.expect(0, self.molecule("methanol"), *both, "--cavities", "separate")
+        self.expect(0, "convert", "a.off", "b.face", "b.vert")
+        self.assertEqual(self.files(), ["a.face", "a.off", "a.vert", "a_1.face", "a_1.vert", "b.face", "b.vert"])
+        twice = self.expect(WRONG_USE, self.molecule("methanol"), *both, "-o", "./a.face", "-o", "a.vert")
+        self.assertIn("expected each output once", twice.stderr)
+
     def test_msms_is_two_files(self):
         self.refused("-o", "-", "--format", "msms", names="two files")
 
