@@ -82,7 +82,9 @@ std::vector<std::string> keys(const CLI::App& program) {
 }  // namespace
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
-  const std::string text{std::istreambuf_iterator<char>(input), {}};
+  std::string text{std::istreambuf_iterator<char>(input), {}};
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
+    text.erase(0, kByteOrderMark.size());  // which editors of Windows put there
   const auto name = program_.get_config_ptr()->as<std::string>();
   const auto place = [&](const Line& line) {
     return name + ":" + (line.number > 0 ? std::to_string(line.number) + ":" : "") + " ";

@@ -543,6 +543,9 @@ class Running(CliTest):
         self.expect(0, self.molecule("methanol"), "--preset", "ses-area", "-o", self.mesh)
         self.assertEqual((self.folder / "a.off").read_bytes(), self.mesh.read_bytes())
         self.assertIn("a.ply", self.files())
+        self.write("run.toml", b'\xef\xbb\xbfoutput = "b.off"\r\n')
+        self.expect(0, self.molecule("methanol"), "--config", "run.toml")
+        self.assertIn("b.off", self.files())
         self.write("wrong.toml", "# decay\nspacing = 1\ndecya = 0.4\n")
         self.assertEqual(self.expect(WRONG_USE, self.molecule("methanol"), "--config", "wrong.toml").stderr,
                          "gaussmesh: wrong.toml:3: expected an option of gaussmesh, got 'decya'; did you mean "
