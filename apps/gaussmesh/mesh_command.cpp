@@ -1,6 +1,7 @@
 #include "mesh_command.h"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <limits>
 #include <sstream>
@@ -17,6 +18,18 @@
 
 namespace gaussmesh::app {
 namespace {
+
+/// What --cavities and the report call them, in the order of Cavities.
+constexpr std::array<const char*, 3> kCavityNames = {"keep", "drop", "separate"};
+
+const char* name_of(Cavities cavities) { return kCavityNames[static_cast<std::size_t>(cavities)]; }
+
+/// `name` is one of them.
+Cavities cavities_of(const std::string& name) {
+  return static_cast<Cavities>(std::find(kCavityNames.begin(), kCavityNames.end(), name) - kCavityNames.begin());
+}
+
+bool is_separate(const MeshCommand& command) { return command.cavities == Cavities::kSeparate; }
 
 bool is_standard_output_taken(const MeshCommand& command) {
   return is_standard_output(command.report) ||
@@ -46,12 +59,11 @@ void require_sense(const MeshCommand& command) {
   if (command.outputs.empty()) throw OptionError("-o: expected a file to write, got nothing");
   require_header_to_leave_out(command.outputs, command.writing);
   require_spacing_for_improvement(command);
-  const bool is_separate = command.cavities == "separate";
-  if (is_separate && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
+  if (is_separate(command) && std::find(command.outputs.begin(), command.outputs.end(), "-") != command.outputs.end())
     throw OptionError("--cavities separate: expected files to write, got '-' for standard output");
   for (const std::string& output : command.outputs) {
     // Its hole and region points are those of a whole molecule: a cavity by itself has nothing inside.
-    if (is_separate && format_of(output, command.writing).name == "smesh")
+    if (is_separate(command) && format_of(output, command.writing).name == "smesh")
       throw OptionError("--cavities separate: expected a format that holds a surface alone, got smesh for '" + output +
                         "', which wants cavities together with what they are in");
   }
@@ -59,7 +71,7 @@ void require_sense(const MeshCommand& command) {
 
 /// The names of all meshes where there are so many surfaces.
 std::vector<std::string> names_of_meshes(const MeshCommand& command, std::size_t surfaces) {
-  if (command.cavities != "separate") return command.outputs;
+  if (!is_separate(command)) return command.outputs;
   std::vector<std::string> names;
   for (std::size_t number = 1; number <= surfaces; ++number) {
     for (const std::string& output : command.outputs) names.push_back(numbered(output, number));
@@ -82,7 +94,8 @@ struct Product {
 
 /// The surface with its cavities as the command wants them, and what was done told in the report.
 Product select_cavities(const MeshCommand& command, Product product) {
-  const double least = command.cavities == "drop" ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
+  const double least =
+      command.cavities == Cavities::kDrop ? std::numeric_limits<double>::infinity() : command.min_cavity_volume;
   const MeshCheck check = product.report.check;
   const ComponentList kept = leave_out_cavities(check, least);
   if (kept.size() < check.components.size()) {
@@ -90,7 +103,7 @@ Product select_cavities(const MeshCommand& command, Product product) {
     product.report.check = check_mesh(product.surface.mesh);
     product.report.left_out = {check.components.size() - kept.size(), product.report.check.volume - check.volume};
   }
-  if (command.cavities == "separate") {
+  if (is_separate(command)) {
     const ComponentList order = outsides_first(product.report.check);
     product.report.check = reorder_components(std::move(product.report.check), order);
   }
@@ -102,7 +115,7 @@ void tell_of_input(const MeshCommand& command, const Surface& surface, const Ato
   const ReadOptions& reading = surface.reading.reading;
   report.source = {command.molecule, reading.radii, input.warnings, reading.radii_file.string()};
   report.probe_radius = surface.reading.probe.value_or(0.0);
-  report.cavities = command.cavities;
+  report.cavities = name_of(command.cavities);
   report.min_cavity_volume = command.min_cavity_volume;
 }
 
@@ -127,7 +140,7 @@ OutputFiles write_all(const MeshCommand& command, const Product& product, int th
   WriteOptions writing = command.writing;
   writing.threads = threads;
   OutputFiles files;
-  if (command.cavities == "separate") {
+  if (is_separate(command)) {
     const auto write = [&](std::uint32_t component, const MeshFile& part) {
       for (const std::string& output : command.outputs)
         files.add_mesh(part.mesh, part.data, numbered(output, component + 1), writing);
@@ -153,7 +166,7 @@ void print_details(const MeshReport& report, std::ostream& out) {
 /// What the first output became.
 std::string name_of_first(const MeshCommand& command, std::size_t surfaces) {
   const std::string& first = command.outputs.front();
-  if (command.cavities != "separate") return first;
+  if (!is_separate(command)) return first;
   return numbered(first, 1) + (surfaces > 1 ? " to " + numbered(first, surfaces) : "");
 }
 
@@ -181,9 +194,10 @@ void add_surface_group(CLI::App& program, MeshCommand& command) {
   for (CLI::Option* option : add_molecule_options(program, command.reading))
     option->group(option->check_lname("probe") ? group : "Input");
   program
-      .add_option("--cavities", command.cavities,
-                  "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
-                  "first (default: keep)")
+      .add_option_function<std::string>(
+          "--cavities", [&command](const std::string& name) { command.cavities = cavities_of(name); },
+          "keep; drop: fill them; separate: a file for each closed surface, OUT_1 and on, outer ones "
+          "first (default: keep)")
       ->type_name("NAME")
       ->check(one_of(cavity_choices()))
       ->group(group);
@@ -272,7 +286,7 @@ void add_running_group(CLI::App& program, MeshCommand& command) {
 
 }  // namespace
 
-std::vector<std::string> cavity_choices() { return {"keep", "drop", "separate"}; }
+std::vector<std::string> cavity_choices() { return {kCavityNames.begin(), kCavityNames.end()}; }
 
 void add_mesh_options(CLI::App& program, MeshCommand& command) {
   program.add_option("molecule", command.molecule, kMoleculeHelp)->type_name("MOL");
@@ -313,11 +327,11 @@ int run_mesh(MeshCommand command) {
   const Product product =
       select_cavities(command, {{std::move(result.mesh), std::move(data)}, std::move(result.report)});
   const std::size_t surfaces = product.report.check.components.size();
-  if (command.cavities == "separate") require_writable_files(command, surfaces);
+  if (is_separate(command)) require_writable_files(command, surfaces);
   OutputFiles files = write_all(command, product, threads);
   if (!command.quiet) print_summary(command, product.report);
   files.commit();
-  if (command.cavities == "separate" && !command.quiet) warn_of_others(command, surfaces);
+  if (is_separate(command) && !command.quiet) warn_of_others(command, surfaces);
   return kGood;
 }
 

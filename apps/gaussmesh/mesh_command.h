@@ -13,11 +13,14 @@
 
 namespace gaussmesh::app {
 
+/// What becomes of cavities: they stay, are filled, or each closed surface has a file.
+enum class Cavities { kKeep, kDrop, kSeparate };
+
 struct MeshCommand {
   std::string molecule;  ///< "-": standard input
   SurfaceOptions surface;
   MoleculeOptions reading;
-  std::string cavities = "keep";     ///< or drop, separate
+  Cavities cavities = Cavities::kKeep;
   double min_cavity_volume = 0.0;    ///< A^3; smaller cavities are left out
   std::optional<double> density;     ///< vertices per A^2, instead of options.spacing
   std::vector<std::string> outputs;  ///< "-": standard output
