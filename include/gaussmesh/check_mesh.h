@@ -111,7 +111,7 @@ struct VertexDistance {
 ///
 /// Cost: for a vertex on the surface one evaluation over the atoms nearby, SIMD over the vertices: some 0.1 us and
 /// 16 bytes a vertex, on one core with AVX-512; less with OpenMP threads. Several times that for vertices
-/// elsewhere. The answer does not depend on the number of threads.
+/// elsewhere. The answer does not depend on the number of threads. Thread-safe.
 VertexDistance vertex_distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                           double isovalue);
 
@@ -129,7 +129,7 @@ struct SurfaceDistance {
 ///
 /// @param mesh  every vertex number is there, all coordinates are finite; else as vertex_distance_to_surface()
 ///
-/// Cost: as vertex_distance_to_surface(), and three evaluations and 16 bytes for each triangle.
+/// Cost: as vertex_distance_to_surface(), and three evaluations and 16 bytes for each triangle. Thread-safe.
 SurfaceDistance distance_to_surface(const TriangleMesh& mesh, const std::vector<Atom>& atoms, double decay,
                                     double isovalue);
 

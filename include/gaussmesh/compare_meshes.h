@@ -48,7 +48,7 @@ struct CompareOptions {
 /// @throws OptionError  if the density is not positive, or would make more than 2^20 samples in a triangle
 ///
 /// Cost: some 0.5 us a sample on one core where the surfaces are near each other, less with OpenMP threads. The
-/// answer does not depend on the number of threads.
+/// answer does not depend on the number of threads. Thread-safe.
 MeshComparison compare_meshes(const TriangleMesh& first, const TriangleMesh& second,
                               const CompareOptions& options = {});
 

@@ -32,7 +32,7 @@ struct AtomMeasures {
 /// @throws OptionError if there is no atom
 ///
 /// Cost: about 1 us a vertex on one core, less with OpenMP threads. The answer does not depend on the number of
-/// threads.
+/// threads. Thread-safe.
 AtomMeasures measure_by_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms);
 
 /// The charges that are not inside the mesh: numbers of those atoms with a charge other than 0 whose centres lie in
@@ -45,7 +45,7 @@ AtomMeasures measure_by_atoms(const TriangleMesh& mesh, const std::vector<Atom>&
 /// @param check  of this mesh
 ///
 /// Cost: a few us a charge on one core, less with OpenMP threads. The answer does not depend on the number of
-/// threads.
+/// threads. Thread-safe.
 std::vector<std::uint32_t> find_charges_outside(const TriangleMesh& mesh, const MeshCheck& check,
                                                 const std::vector<Atom>& atoms);
 
@@ -73,6 +73,7 @@ inline constexpr std::size_t kMostNearPairs = 10'000'000;
 /// @throws OptionError if distance is not positive
 ///
 /// Cost: O(vertices + pairs), some 0.5 us and 12 bytes a vertex, on one core; stops at kMostNearPairs pairs.
+/// Thread-safe.
 NearVertices find_near_vertices(const TriangleMesh& mesh, double distance);
 
 }  // namespace gaussmesh

@@ -15,7 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< 0-based vertex numbers, cou
 /// Most triangles, and most vertices, of a mesh that can be made or judged: 32-bit numbers, with room.
 inline constexpr std::size_t kMostParts = std::size_t{1} << 31;
 
-/// An indexed triangle mesh. Nothing is promised of it here: verify/ says what holds.
+/// An indexed triangle mesh. Nothing is promised of it here: check_mesh() says what holds (check_mesh.h).
 struct TriangleMesh {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;

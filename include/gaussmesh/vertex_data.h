@@ -27,14 +27,15 @@ struct VertexData {
 /// @throws OptionError if there is no atom
 ///
 /// Cost: the atoms near each vertex, about 0.5 us a vertex. The answer does not depend on the number of threads.
+/// Thread-safe.
 std::vector<std::uint32_t> find_nearest_atoms(const TriangleMesh& mesh, const std::vector<Atom>& atoms, int threads);
 
 /// The component of each vertex, from those of its triangles in `check`, which is of this mesh; kNoComponent for a
-/// vertex in no triangle that was judged. Cost: O(n).
+/// vertex in no triangle that was judged. Cost: O(n). Thread-safe.
 std::vector<std::uint32_t> find_vertex_components(const TriangleMesh& mesh, const MeshCheck& check);
 
 /// Unit normals from the triangles alone: the sum of those around a vertex, weighted by their areas. Zero where
-/// there are none. For meshes that come without normals; those of the field are better. Cost: O(n).
+/// there are none. For meshes that come without normals; those of the field are better. Cost: O(n). Thread-safe.
 std::vector<Normal> average_normals(const TriangleMesh& mesh);
 
 }  // namespace gaussmesh

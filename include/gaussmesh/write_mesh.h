@@ -41,6 +41,9 @@ struct WriteOptions {
 ///
 /// The path `-` is standard output, and devices and pipes are written where they are; there, nothing can be taken
 /// back. A symbolic link is followed. What has a name that ends in `.gz`, in any case, is gzipped.
+///
+/// One object is for one thread at a time; several may be at work at once. Of two that write to one path, the last to
+/// commit is there, whole.
 class OutputFiles {
  public:
   OutputFiles();
@@ -84,6 +87,8 @@ class OutputFiles {
 /// | stl, stl-ascii | none |
 /// | gmsh22, gmsh41 | components from 1 as tags of the triangles; normals, atoms and components as NodeData |
 /// | smesh | components from 1 as markers; a point in each cavity (hole) and in each solid (region) |
+///
+/// Thread-safe, as OutputFiles says.
 void write_mesh(const TriangleMesh& mesh, const VertexData& data, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
