@@ -67,7 +67,7 @@ const std::vector<std::string>& radius_set_names();
 
 /// Reads a file of atoms, plain or gzipped.
 ///
-/// Names that end in `.xyzr` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
+/// Names that end in `.xyzr`, `.xyzrn` or `.xyzrq` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
 /// with `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
 /// than 64 MiB and 200-fold are refused.
 ///
@@ -117,11 +117,13 @@ AtomFile parse_pqr(std::string_view text, std::string_view name, AtomNames names
 
 /// Reads XYZR text that is already in memory; `name` stands for the file in messages.
 ///
-/// A line is `x y z radius` (A), separated by blanks or tabs, perhaps with names behind that begin with a letter;
-/// `#` starts a comment. The first line may be the number of atoms alone, and must then be right. Charges are 0.
-/// Numbers, line ends and large radii are as in parse_pqr.
+/// A line is `x y z radius` (A), separated by blanks or tabs; other fields may follow, as the flag and name of MSMS's
+/// xyzrn, or NanoShaper's charge, and are passed over. `#` starts a comment. The first line may be the number of atoms
+/// alone, and must then be right. Charges are 0. Numbers, line ends and large radii are as in parse_pqr.
 ///
-/// @throws InputError  on any other line, a wrong number of atoms, text without atoms, UTF-16 and NUL bytes
+/// @throws InputError  on any other line, a wrong number of atoms, text without atoms, UTF-16 and NUL bytes; on four
+///                     lines or more of five numbers that begin with 0 or 1, the next integer, and so on: they are
+///                     numbers of atoms, and x y z radius behind
 AtomFile parse_xyzr(std::string_view text, std::string_view name);
 
 /// Reads PDB text that is already in memory.

@@ -25,11 +25,7 @@ std::optional<std::size_t> parse_count(std::string_view field) {
 }
 
 Atom read_line(std::span<const std::string_view> fields, std::string_view line, const LinePlace& place) {
-  std::size_t numbers = fields.size();
-  while (numbers > kNumbersPerLine && is_symbol(fields[numbers - 1])) {
-    --numbers;
-  }
-  if (numbers != kNumbersPerLine) {
+  if (fields.size() < kNumbersPerLine) {
     fail_at(place, "four numbers x y z radius", line);
   }
   const AtomFields atom_fields = {fields[0], fields[1], fields[2], fields[3], {}};
@@ -40,6 +36,36 @@ Atom read_line(std::span<const std::string_view> fields, std::string_view line, 
   require_in_range(*atom, atom_fields, place);
   return *atom;
 }
+
+/// Finds files whose lines begin with the number of the atom: five numbers might as well be x y z radius charge.
+class NumberedLineCheck {
+ public:
+  void add(std::span<const std::string_view> fields, std::string_view line, const LinePlace& place) {
+    if (lines_++ == 0) {
+      first_ = line;
+      first_line_ = place.line;
+    }
+    const auto number = parse_count(fields[0]);
+    is_possible_ = is_possible_ && fields.size() > kNumbersPerLine && parse_number(fields[kNumbersPerLine]) && number &&
+                   (lines_ == 1 ? *number <= 1 : *number == last_ + 1);
+    last_ = number.value_or(0);
+  }
+
+  /// Throws InputError if it is one.
+  void require_none(std::string_view name) const {
+    constexpr std::size_t kFewestToJudge = 4;  // fewer may well be spheres made by hand
+    if (!is_possible_ || lines_ < kFewestToJudge) return;
+    fail_at({name, first_line_}, "four numbers x y z radius", first_,
+            ", whose first counts the lines from here to the last; take it out, or write x with a decimal point");
+  }
+
+ private:
+  bool is_possible_ = true;
+  std::size_t lines_ = 0;
+  std::size_t last_ = 0;  // number at the head of a line
+  std::string_view first_;
+  std::size_t first_line_ = 0;
+};
 
 void require_count(const AtomCount& expected, std::size_t atoms, std::string_view name) {
   if (expected.value != atoms) {
@@ -55,6 +81,7 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name) {
   LineReader lines(require_text(text, name));
   FieldSplitter splitter;
   LargeRadii large_radii;
+  NumberedLineCheck numbered_line_check;
   std::optional<AtomCount> count;
   while (const auto line = lines.next()) {
     const std::string_view content = trim(line->substr(0, line->find('#')));
@@ -70,6 +97,7 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name) {
     }
     file.atoms.push_back(read_line(fields, content, {name, lines.number()}));
     file.lines.push_back(lines.number());
+    numbered_line_check.add(fields, content, {name, lines.number()});
     large_radii.add(file.atoms.back().radius, lines.number());
   }
   if (file.atoms.empty()) {
@@ -78,6 +106,7 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name) {
   if (count) {
     require_count(*count, file.atoms.size(), name);
   }
+  numbered_line_check.require_none(name);
   large_radii.warn(name, file);
   return file;
 }

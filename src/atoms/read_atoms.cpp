@@ -15,7 +15,9 @@ namespace {
 
 /// The format that the name of a file means.
 std::string format_of_name(std::string_view name) {
-  if (has_extension(name, ".xyzr")) return "xyzr";
+  for (const char* extension : {".xyzr", ".xyzrn", ".xyzrq"}) {
+    if (has_extension(name, extension)) return "xyzr";
+  }
   if (has_extension(name, ".pdb") || has_extension(name, ".ent")) return "pdb";
   if (has_extension(name, ".cif") || has_extension(name, ".mmcif")) return "mmcif";
   return "pqr";

@@ -241,6 +241,10 @@ TEST_CASE("read_atoms reads streams, and names decide their format") {
   CHECK(read_atoms(pqr, "<standard input>").atoms.size() == 1);
   std::istringstream xyzr("1 2 3 4\n");
   CHECK(same_atom(read_atoms(xyzr, "some.xyzr").atoms.at(0), {1, 2, 3, 4, 0}));
+  for (const char* name : {"some.xyzrn", "some.xyzrq", "SOME.XYZRN.gz"}) {
+    std::istringstream more("1 2 3 4 1 N_ALA_1\n");
+    CHECK(same_atom(read_atoms(more, name).atoms.at(0), {1, 2, 3, 4, 0}));
+  }
   std::istringstream packed(gzipped(kAtom));
   CHECK(read_atoms(packed, "-").atoms.size() == 1);
   std::istringstream empty;
