@@ -155,8 +155,8 @@ AtomFile parse_pdb(std::string_view text, std::string_view name, const std::stri
                    const std::filesystem::path& radii_file = {}, AtomNames names = AtomNames::kLeaveOut);
 
 /// Reads mmCIF text that is already in memory: its loop _atom_site, as parse_pdb does. Where that has no label_atom_id
-/// or label_comp_id, the tags of the authors (auth_...) are read instead. Names that are kept have the authors' chains
-/// and numbers, which PDB files of the same entry have.
+/// or label_comp_id, the tags of the authors (auth_...) are read instead. Coordinates may have a standard uncertainty,
+/// as `19.594(5)`. Names that are kept have the authors' chains and numbers, which PDB files of the same entry have.
 ///
 /// @throws InputError  as parse_pdb does, and if the text is no CIF, a column is missing, or several blocks have atoms
 AtomFile parse_mmcif(std::string_view text, std::string_view name, const std::string& radii,

@@ -2,6 +2,9 @@
 //
 // https://mmcif.wwpdb.org/dictionaries/mmcif_pdbx_v50.dic/Categories/atom_site.html
 
+#include <algorithm>
+#include <string_view>
+
 #include "atoms/cif_table.h"
 #include "atoms/structure_builder.h"
 #include "gaussmesh/error.h"
@@ -30,8 +33,17 @@ std::vector<CifColumn> columns() {
           {"Cartn_z", ""}};
 }
 
+/// `text` without the standard uncertainty that a number of CIF may have: `19.594(5)`.
+std::string_view without_uncertainty(std::string_view text) {
+  const std::size_t open = text.find('(');
+  if (open == std::string_view::npos || !text.ends_with(')')) return text;
+  const std::string_view digits = text.substr(open + 1, text.size() - open - 2);
+  const bool is_one = !digits.empty() && std::all_of(digits.begin(), digits.end(), is_digit);
+  return is_one ? text.substr(0, open) : text;
+}
+
 double coordinate(const std::string& text, const std::string& where) {
-  const auto value = parse_number(text);
+  const auto value = parse_number(without_uncertainty(text));
   if (!value) throw InputError(where + ": expected a coordinate (A), got " + gaussmesh::quoted(text));
   return *value;
 }

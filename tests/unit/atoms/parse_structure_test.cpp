@@ -473,6 +473,21 @@ TEST_CASE("atoms without a radius that no file of radii can have are a comment, 
   }
 }
 
+TEST_CASE("coordinates of mmCIF may have a standard uncertainty") {
+  const auto x_of = [](const std::string& x) {
+    std::string text = mmcif_text({kCarbon});
+    text.replace(text.find(" 1.5 "), 5, " " + x + " ");
+    return parse_mmcif(text, "a.cif", "bondi").atoms.at(0).x;
+  };
+  CHECK(x_of("19.594(5)") == 19.594);
+  CHECK(x_of("-1.5(12)") == -1.5);
+  CHECK(x_of("'19(5)'") == 19.0);
+  for (const char* wrong : {"1.5()", "1.5(x)", "1.5(5", "1.5(5)(5)", "(5)", "1.5(-5)"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_WITH(x_of(wrong), ContainsSubstring(std::string("expected a coordinate (A), got '") + wrong));
+  }
+}
+
 TEST_CASE("mmCIF that is none") {
   const auto error_of_cif = [](const std::string& text) {
     try {
