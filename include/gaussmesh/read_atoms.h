@@ -139,7 +139,9 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// file, as ReadOptions has it, or from a set:
 ///
 /// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
-///   Bondi, J. Phys. Chem. 68:441 (1964)
+///   Bondi, J. Phys. Chem. 68:441 (1964), and for elements of the main groups that he has not, such as calcium,
+///   Mantina et al., J. Phys. Chem. A 113:5806 (2009); of transition metals Ni, Cu, Zn, Pd, Ag, Cd, Pt, Au and Hg alone
+///   are in these
 /// - amber: amino acids and nucleotides, R* by atom type; Cornell et al., J. Am. Chem. Soc. 117:5179 (1995)
 /// - charmm: the same, Rmin/2; MacKerell et al., J. Phys. Chem. B 102:3586 (1998)
 ///

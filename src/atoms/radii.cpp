@@ -11,18 +11,24 @@
 namespace gaussmesh {
 namespace {
 
-/// Radii by element. Bondi, J. Phys. Chem. 68:441 (1964), tables I, XIV and XV; nothing for elements that are not
-/// there.
 struct ElementRadius {
   std::string_view element;
   double radius;
 };
+
+/// Radii by element. Bondi, J. Phys. Chem. 68:441 (1964), tables I, XIV and XV.
 constexpr ElementRadius kBondi[] = {
     {"H", 1.20},  {"HE", 1.40}, {"LI", 1.82}, {"C", 1.70},  {"N", 1.55},  {"O", 1.52},  {"F", 1.47},  {"NE", 1.54},
     {"NA", 2.27}, {"MG", 1.73}, {"SI", 2.10}, {"P", 1.80},  {"S", 1.80},  {"CL", 1.75}, {"AR", 1.88}, {"K", 2.75},
     {"NI", 1.63}, {"CU", 1.40}, {"ZN", 1.39}, {"GA", 1.87}, {"AS", 1.85}, {"SE", 1.90}, {"BR", 1.85}, {"KR", 2.02},
     {"PD", 1.63}, {"AG", 1.72}, {"CD", 1.58}, {"IN", 1.93}, {"SN", 2.17}, {"TE", 2.06}, {"I", 1.98},  {"XE", 2.16},
     {"PT", 1.72}, {"AU", 1.66}, {"HG", 1.55}, {"TL", 1.96}, {"PB", 2.02}, {"U", 1.86}};
+
+/// Elements of the main groups that Bondi left out, made to go with his. Mantina et al., J. Phys. Chem. A 113:5806
+/// (2009), table 12. Of the other metals neither has more: iron and manganese stay without.
+constexpr ElementRadius kMantina[] = {
+    {"BE", 1.53}, {"B", 1.92},  {"AL", 1.84}, {"CA", 2.31}, {"GE", 2.11}, {"RB", 3.03}, {"SR", 2.49}, {"SB", 2.06},
+    {"CS", 3.43}, {"BA", 2.68}, {"BI", 2.07}, {"PO", 1.97}, {"AT", 2.02}, {"RN", 2.20}, {"FR", 3.48}, {"RA", 2.83}};
 
 /// The atoms of a residue: each radius (A), and the names of the atoms that have it, as the PDB has them since
 /// 2007.
@@ -215,6 +221,7 @@ const std::vector<std::string>& radius_set_names() {
 RadiusSet::RadiusSet(const std::string& name) : name_(name) {
   if (name == "bondi") {
     for (const ElementRadius& entry : kBondi) radii_.emplace(entry.element, entry.radius);
+    for (const ElementRadius& entry : kMantina) radii_.emplace(entry.element, entry.radius);
     radii_.emplace("D", radii_.at("H"));
     return;
   }

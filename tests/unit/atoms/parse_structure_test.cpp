@@ -97,6 +97,9 @@ TEST_CASE("sets of radii") {
   CHECK(bondi.find("ALA", "CA", "C") == 1.70);
   CHECK(bondi.find("ZZZ", "CL1", "Cl") == 1.75);
   CHECK(bondi.find("HOH", "D1", "D") == 1.20);
+  CHECK(bondi.find("CA", "CA", "Ca") == 2.31);  // of Mantina et al., as is the next
+  CHECK(bondi.find("LIG", "B1", "B") == 1.92);
+  CHECK(bondi.find("LIG", "BR1", "BR") == 1.85);  // not theirs where Bondi has one
   CHECK_FALSE(bondi.find("HEM", "FE", "FE"));
   CHECK(amber.find("SER", "OG", "O") == 1.721);
   CHECK(amber.find("DT", "C7", "C") == 1.908);
