@@ -67,8 +67,9 @@ const std::vector<std::string>& radius_set_names();
 
 /// Reads a file of atoms, plain or gzipped.
 ///
-/// Names that end in `.xyzr`, `.xyzrn` or `.xyzrq` are XYZR, in `.pdb` or `.ent` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
-/// with `.gz` behind; every other is PQR. Gzip is known by its first bytes, whatever the name; data that expand to more
+/// Names that end in `.xyzr`, `.xyzrn` or `.xyzrq` are XYZR, in `.pdb`, `.ent` or `.pdbqt` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
+/// with `.gz` behind; every other is PQR, but for those of formats that are not read (`.gro`, `.mol2`, `.sdf`, `.xyz`,
+/// ...). Gzip is known by its first bytes, whatever the name; data that expand to more
 /// than 64 MiB and 200-fold are refused.
 ///
 /// A warning names the first atom nearer than 0.1 A to one before it, and counts them: copies and alternate locations
@@ -76,7 +77,7 @@ const std::vector<std::string>& radius_set_names();
 ///
 /// @throws OptionError if a format or set of radii is unknown, no radii are given for PDB or mmCIF, or any for PQR or
 ///         XYZR
-/// @throws InputError as the parsers do, and if the file is missing, a directory, unreadable, or corrupt gzip
+/// @throws InputError as the parsers do, if the name is one of a format that is not read, and if the file is missing, a directory, unreadable, or corrupt gzip
 ///
 /// Cost: one pass over the file held in memory; a million atoms take about 0.3 s.
 /// Thread-safe. Does not depend on the locale.

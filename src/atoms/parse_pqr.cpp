@@ -60,8 +60,10 @@ AtomFile PqrParser::parse() {
     read_line(*line);
   }
   if (file_.atoms.empty()) {
-    throw InputError(std::string(name_) + ": expected ATOM or HETATM records, got no atoms; lines of four numbers, " +
-                     "x y z radius, are read from files named .xyzr, or with --input-format xyzr");
+    throw InputError(std::string(name_) +
+                     ": expected ATOM or HETATM records, got no atoms; besides PQR are read XYZR, " +
+                     "lines of x y z radius, PDB and mmCIF, from files named .xyzr, .pdb or .cif, or with " +
+                     "--input-format; no other formats are");
   }
   missing_field_check_.require_complete(name_);
   pdb_check_.require_pqr(file_.atoms.size(), name_);

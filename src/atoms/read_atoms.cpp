@@ -13,13 +13,34 @@
 namespace gaussmesh {
 namespace {
 
-/// The format that the name of a file means.
+/// Other formats of molecules, by the ends of names. The PQR reader would say that they have no atoms, or are no text.
+struct OtherFormat {
+  const char* extension;
+  const char* name;
+};
+constexpr OtherFormat kNotRead[] = {{".bcif", "BinaryCIF"}, {".gro", "GRO"}, {".mmtf", "MMTF"}, {".mol", "MOL"},
+                                    {".mol2", "MOL2"},      {".sdf", "SDF"}, {".xyz", "XYZ"}};
+
+/// Throws InputError if `name` means one of these.
+void require_read(std::string_view name) {
+  for (const OtherFormat& other : kNotRead) {
+    if (!has_extension(name, other.extension)) continue;
+    throw InputError(std::string(name) + ": expected PQR, XYZR, PDB or mmCIF, got " + other.name +
+                     " by its name, which is not read; have another program write it as one of these, or if it is one, "
+                     "say so with --input-format");
+  }
+}
+
+/// The format that the name of a file means. @throws InputError if that is not read
 std::string format_of_name(std::string_view name) {
   for (const char* extension : {".xyzr", ".xyzrn", ".xyzrq"}) {
     if (has_extension(name, extension)) return "xyzr";
   }
-  if (has_extension(name, ".pdb") || has_extension(name, ".ent")) return "pdb";
+  for (const char* extension : {".pdb", ".ent", ".pdbqt"}) {
+    if (has_extension(name, extension)) return "pdb";
+  }
   if (has_extension(name, ".cif") || has_extension(name, ".mmcif")) return "mmcif";
+  require_read(name);
   return "pqr";
 }
 

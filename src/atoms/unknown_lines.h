@@ -20,6 +20,10 @@ class UnknownLines {
       fail_at(place, expected, content,
               "; mmCIF is read from files named .cif, or with --input-format mmcif, and --radii");
     }
+    if (content.starts_with("@<TRIPOS>")) fail_at(place, expected, content, "; MOL2 is not read");
+    if (content.ends_with("V2000") || content.ends_with("V3000")) {
+      fail_at(place, expected, content, "; MOL and SDF are not read");
+    }
     if (count_++ > 0) return;
     first_line_ = place.line;
     first_ = content;

@@ -290,7 +290,7 @@ TEST_CASE("parse_pqr refuses other formats") {
   CHECK_THAT(error_of("data_1ABC\n#\n"),
              ContainsSubstring("mmCIF is read from files named .cif, or with --input-format mmcif, and --radii"));
   CHECK_THAT(error_of("1.0 2.0 3.0 4.0\n"),
-             ContainsSubstring("x y z radius, are read from files named .xyzr, or with --input-format xyzr"));
+             ContainsSubstring("XYZR, lines of x y z radius, PDB and mmCIF, from files named .xyzr, .pdb or .cif"));
   CHECK_THAT(error_of("\xfe\xff"), ContainsSubstring("UTF-16"));
 }
 

@@ -251,6 +251,32 @@ TEST_CASE("read_atoms reads streams, and names decide their format") {
   CHECK_THAT(input_error_of([&] { read_atoms(empty, "-"); }), ContainsSubstring("-: expected ATOM or HETATM"));
 }
 
+TEST_CASE("read_atoms says which formats are not read") {
+  const auto error_of_text = [](const std::string& name, const std::string& text, const ReadOptions& options = {}) {
+    std::istringstream input(text);
+    return input_error_of([&] { read_atoms(input, name, options); });
+  };
+  CHECK(
+      error_of_text("a.gro", "water\n    1\n    1SOL     OW    1   0.126   1.624   1.679\n") ==
+      "a.gro: expected PQR, XYZR, PDB or mmCIF, got GRO by its name, which is not read; have another program write it "
+      "as one of these, or if it is one, say so with --input-format");
+  CHECK_THAT(error_of_text("A.XYZ.gz", "1\nwater\nO 0 0 0\n"), ContainsSubstring("got XYZ by its name"));
+  CHECK_THAT(error_of_text("a.bcif", "\x83\0"s), ContainsSubstring("got BinaryCIF by its name"));
+  CHECK_THAT(error_of_text("a.sdf", "", {"", "bondi"}), ContainsSubstring("got SDF by its name"));
+  CHECK(error_of_text("a.xyz", kAtom, {"pqr", ""}).empty());
+  CHECK(error_of_text("-", "@<TRIPOS>MOLECULE\n") ==
+        "-:1: expected PQR records, got '@<TRIPOS>MOLECULE'; MOL2 is not read");
+  CHECK_THAT(
+      error_of_text("-", "\n\n\n  1  0  0     0  0            999 V2000\n", {"pdb", "bondi"}),
+      ContainsSubstring("-:4: expected PDB records, got '1  0") && ContainsSubstring("MOL and SDF are not read"));
+}
+
+TEST_CASE("PDBQT is read as PDB") {
+  std::istringstream input(
+      "ROOT\nATOM      1  OA  LIG A   1       0.000   0.000   0.000  1.00  0.00     0.148 OA\nENDROOT\n");
+  CHECK(read_atoms(input, "a.pdbqt", {"", "bondi"}).atoms.at(0).radius == 1.52);
+}
+
 TEST_CASE("read_atoms does not depend on the locale") {
   struct CommaPoint : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
