@@ -53,7 +53,8 @@ struct ReadOptions {
   /// A line is `[residue] name radius` (A): the name of an atom, or an element, in any case; `#` starts a comment.
   /// For an atom the first of these is taken: residue and name, residue and element, name, element. So `CA 2.3` is
   /// every alpha carbon, and `CA CA 2.3` a calcium ion. Any other line, a radius out of range and an entry that stands
-  /// twice are an InputError.
+  /// twice are an InputError. A warning names entries of a residue that the molecule has, but not with such an atom;
+  /// since tables may be made for all molecules, not hydrogens, nor amino acids and nucleotides of which others fit.
   std::filesystem::path radii_file = {};
 
   AtomNames names = AtomNames::kLeaveOut;

@@ -82,3 +82,21 @@ TEST_CASE("a file of radii comes before a set, or stands alone") {
   std::istringstream pqr("ATOM 1 N ASN 1 -8.9 4.1 -0.5 0.18 1.8\n");
   CHECK_THROWS_AS(read_atoms(pqr, "a.pqr", {"", "", file}), OptionError);
 }
+
+TEST_CASE("entries of a residue that is there, but not with such an atom, are told") {
+  const testing::Folder folder;
+  const auto file = folder / "my.radii";
+  const auto warnings_of = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return read_pdb({"", "bondi", file}).warnings;
+  };
+  const std::string start = file.string() + ":";
+  CHECK(warnings_of("HEM FE 1.5\nhem fee 1.5\n") ==
+        std::vector<std::string>{start + "2: no atom fits 'HEM FEE', though its residue is there"});
+  CHECK(warnings_of("HEM NA 1.5\nHEM FE 1.5\nHEM NB 1.5\nGLY CAA 1.5\n") ==
+        std::vector<std::string>{start +
+                                 "1: no atom fits 'HEM NA', though its residue is there; as in 2 more lines, the "
+                                 "next 3"});
+  // What a table for all molecules may have.
+  CHECK(warnings_of("GLY CA 1.7\nGLY OXT 1.5\nGLY C 1.7\nHEM FE 1.5\nHEM HHA 1.2\nLIG C1 1.7\nZN 1.4\n").empty());
+}
