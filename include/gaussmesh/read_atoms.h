@@ -68,17 +68,18 @@ const std::vector<std::string>& radius_set_names();
 
 /// Reads a file of atoms, plain or gzipped.
 ///
-/// Names that end in `.xyzr`, `.xyzrn` or `.xyzrq` are XYZR, in `.pdb`, `.ent` or `.pdbqt` PDB, in `.cif` or `.mmcif` mmCIF, in any case and perhaps
-/// with `.gz` behind; every other is PQR, but for those of formats that are not read (`.gro`, `.mol2`, `.sdf`, `.xyz`,
-/// ...). Gzip is known by its first bytes, whatever the name; data that expand to more
-/// than 64 MiB and 200-fold are refused.
+/// Names that end in `.xyzr`, `.xyzrn` or `.xyzrq` are XYZR, in `.pdb`, `.ent` or `.pdbqt` PDB, in `.cif` or `.mmcif`
+/// mmCIF, in any case and perhaps with `.gz` behind; every other is PQR, but for those of formats that are not read
+/// (`.gro`, `.mol2`, `.sdf`, `.xyz`, ...). Gzip is known by its first bytes, whatever the name; data that expand to
+/// more than 64 MiB and 200-fold are refused.
 ///
 /// A warning names the first atom nearer than 0.1 A to one before it, and counts them: copies and alternate locations
 /// are all in the field.
 ///
 /// @throws OptionError if a format or set of radii is unknown, no radii are given for PDB or mmCIF, or any for PQR or
 ///         XYZR
-/// @throws InputError as the parsers do, if the name is one of a format that is not read, and if the file is missing, a directory, unreadable, or corrupt gzip
+/// @throws InputError as the parsers do, if the name is one of a format that is not read, and if the file is missing, a
+///         directory, unreadable, or corrupt gzip
 ///
 /// Cost: one pass over the file held in memory; a million atoms take about 0.3 s.
 /// Thread-safe. Does not depend on the locale.
@@ -136,9 +137,9 @@ AtomFile parse_xyzr(std::string_view text, std::string_view name);
 /// locations each atom is taken at one: that which comes first in its residue, or if the atom has not got that, the
 /// first that it has. To have none counts as a location of atoms that also stand there with one. Of a residue that is
 /// of one kind at one location and of another at the next, the first kind is taken. Warnings count what is left out.
-/// Hydrogens are taken if they are there; none are added. Charges are 0. Behind END there may be other frames of the same atoms; what has other atoms
-/// was joined from several files, and is refused. A warning counts lines that are no records of PDB. Radii come from a
-/// file, as ReadOptions has it, or from a set:
+/// Hydrogens are taken if they are there; none are added. Charges are 0. Behind END there may be other frames of the
+/// same atoms; what has other atoms was joined from several files, and is refused. A warning counts lines that are no
+/// records of PDB. Radii come from a file, as ReadOptions has it, or from a set:
 ///
 /// - bondi: by element, which is in columns 77-78, or known from the names of atom and residue where that is clear;
 ///   Bondi, J. Phys. Chem. 68:441 (1964), and for elements of the main groups that he has not, such as calcium,
