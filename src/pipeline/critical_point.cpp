@@ -18,6 +18,11 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
   }
   NearAtoms atoms;
   field.collect_near(box, atoms);
+  // Where critical points are a curve, as between coaxial rings, the Hessian is singular along it: the shortest step
+  // leads there.
+  constexpr double kSingular = 1e-6;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
+  decomposition.setThreshold(kSingular);
   Vec3 at = place;
   bool converged = false;
   for (int iteration = 0; iteration < 20; ++iteration) {
@@ -28,7 +33,8 @@ CriticalPoint find_critical_point(const GaussianField& field, const Vec3& place)
       hessian.col(k) = Eigen::Vector3d::Map(along.gradient_slope.data());
       gradient = Eigen::Vector3d::Map(along.point.gradient.data());
     }
-    const Eigen::Vector3d step = -hessian.fullPivLu().solve(gradient);
+    decomposition.compute(hessian);
+    const Eigen::Vector3d step = -decomposition.solve(gradient);
     double farthest = 0.0;
     Vec3 next = at;
     for (int k = 0; k < 3; ++k) {
