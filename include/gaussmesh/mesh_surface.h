@@ -27,8 +27,11 @@ struct MeshOptions {
   int threads = 0;                ///< to 4096; 0: as many as there are processors
   double memory_bytes = 0.0;      ///< what there is for the mesh: one that surely takes more is not begun; 0: not known
   bool allow_uncertified = false;  ///< where c is too near a critical value, mesh a level beside it
-  std::function<void(const std::string& stage)> on_stage_end;  ///< called as each stage ends, on the caller's thread
+  /// Called as each stage ends, on the caller's thread, with its name: `boxes and roots`, `folds`, `curves`, `patches`,
+  /// `improve`, `verify`, some of them several times. What it throws ends the work and comes out of mesh_surface().
+  std::function<void(const std::string& stage)> on_stage_end;
   /// Called often within the stage `improve`: on any thread, on several at a time, and not always in rising order.
+  /// What it throws comes out too.
   std::function<void(double share_done)> on_improving;
 };
 

@@ -167,6 +167,9 @@ class SurfaceMesher {
     return trace_surface(field_, demands, threads_, [&](const std::string& stage) { watch_.finished(stage); });
   }
 
+  /// Whether there is a mesh without these demands: they may fail.
+  static bool is_extra(const TraceDemands& demands) { return !demands.fine_places.empty(); }
+
   /// By the first of the demands that leads to a certified surface. @throws CannotMeshError
   TraceResult trace_at_level() {
     std::optional<TraceResult> uncertified;
@@ -181,10 +184,14 @@ class SurfaceMesher {
         uncertified = std::move(trace);
       } catch (const LatticeDegenerate& error) {
         degenerate = error.what();
-      } catch (const std::exception&) {  // such as too many cells: there was a mesh without those
-        if (demands.fine_places.empty()) throw;
+      } catch (const CannotMeshError&) {
+        if (!is_extra(demands)) throw;
+      } catch (const std::bad_alloc&) {
+        if (!is_extra(demands)) throw;
+      } catch (const InternalError&) {  // as where cells are split again and again
+        if (!is_extra(demands)) throw;
       }
-      if (!demands.fine_places.empty()) can_be_finer_ = false;
+      if (is_extra(demands)) can_be_finer_ = false;
     }
     if (uncertified) return std::move(*uncertified);
     throw CannotMeshError(degenerate + "; another spacing may help");
@@ -258,6 +265,9 @@ class SurfaceMesher {
   /// @throws InternalError, CannotMeshError
   void require_promises() {
     MeshReport& report = result_.report;
+    if (!has_same_topology_) {
+      throw InternalError("the finished mesh has other Euler numbers than the traced one: please report this molecule");
+    }
     if (!is_good()) {
       throw InternalError("the finished mesh is not closed, embedded and oriented: please report this molecule");
     }

@@ -133,6 +133,18 @@ TEST_CASE("where a mesh takes several attempts, its boxes are those of the last 
   for (std::size_t i = 1; i < boxes.size(); ++i) CHECK(boxes[i].size == 0.5 * boxes[i - 1].size);
 }
 
+TEST_CASE("a stage's caller can end the work, also where a finer trace is made that may fail") {
+  const std::vector<Atom> crease{{0, 0, 0, 40.0, 0}, {50.0, 0, 0, 40.0, 0}};
+  MeshOptions o = improved(0.6, 1.7, 5.0);
+  int traces = 0;
+  o.on_stage_end = [&](const std::string& stage) {
+    traces += stage == "boxes and roots";
+    if (traces == 2) throw std::runtime_error("enough");
+  };
+  CHECK_THROWS_WITH(mesh_surface(crease, o), "enough");
+  CHECK(traces == 2);
+}
+
 TEST_CASE("exact signs everywhere give as good a mesh as near close sheets only") {
   const std::vector<Atom> atoms = molecule("2y29_wat");
   const MeshResult traced = mesh_surface(atoms, options(0.6, 1.7, 0.5));
