@@ -84,6 +84,17 @@ std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads)
   return bad;
 }
 
+std::vector<std::uint32_t> find_bad_vertices(const BlockMesh& mesh, std::vector<std::uint32_t> at_sharp_edges) {
+  const HalfEdgeMesh& c = mesh.connectivity;
+  std::vector<std::uint32_t> bad = std::move(at_sharp_edges);
+  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
+    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= kLeastSine) continue;
+    for (const std::uint32_t v : c.triangle(t)) bad.push_back(v);
+  }
+  sort_and_unite(bad);
+  return bad;
+}
+
 std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads) {
   constexpr double kWantedSine = 0.5;  // 30 degrees
   std::vector<std::uint32_t> thin =

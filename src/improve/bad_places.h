@@ -16,6 +16,9 @@ inline const double kLeastSine = std::sin(kLeastAngleDeg * std::numbers::pi / 18
 /// Cost: one pass over the triangles, and a second over those that are turned from the field.
 std::vector<std::uint32_t> find_bad_vertices(const WholeMesh& mesh, int threads);
 
+/// The same of one block, which knows its sharp edges. @param at_sharp_edges  corners_at_sharp_edges()
+std::vector<std::uint32_t> find_bad_vertices(const BlockMesh& mesh, std::vector<std::uint32_t> at_sharp_edges);
+
 /// Corners of triangles with an angle below 30 degrees, in rising order. Cost: one pass over the triangles.
 std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads);
 
@@ -25,6 +28,7 @@ struct BadPlace {
   double size;  ///< wanted edge (A)
 };
 
+/// Those of some vertices, in their order.
 std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std::uint32_t>& vertices);
 
 /// Places of bad vertices, and of all that are connected with them through edges meant to be much shorter than the

@@ -56,14 +56,15 @@ constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
 
-/// Where many are bad, a few sweeps that leave no fewer than this part of them are the last ...
+/// Where more than this part of all vertices stays bad, a few sweeps that leave no fewer than this part of the bad ones
+/// are the last: the surface is finer than triangles may be.
 constexpr double kGain = 0.9;
+constexpr double kStillBad = 0.05;
 
-/// ... and so is one that leaves so many times as many: the surface is finer than triangles may be. Where a finer trace
-/// can follow it takes both, and no more than this part of all vertices: some places get worse for as long as they are
-/// worked on.
-constexpr double kLoss = 2.0;
-constexpr double kFewBad = 0.02;
+/// Where a finer trace can follow it takes less, if so many times as many as there were at the best are bad: some
+/// places get worse for as long as they are worked on.
+constexpr double kLoss = 1.5;
+constexpr double kFewBad = 0.005;
 
 constexpr int kRoundsInBoxes = 3;
 constexpr int kMostSweepsOfBoxes = 20;
@@ -99,17 +100,6 @@ double mean_edge(const WholeMesh& mesh, int threads) {
 /// Edge (A) of blocks for a mesh as it was traced.
 double block_edge(double cell, double mean_edge) {
   return std::clamp(kBlockEdgeInEdges * mean_edge, kLeastBlockEdge * cell, kBlockEdge * cell);
-}
-
-/// The corners of triangles with an angle that is too small.
-std::vector<std::uint32_t> find_bad_triangles(const BlockMesh& mesh) {
-  const HalfEdgeMesh& c = mesh.connectivity;
-  std::vector<std::uint32_t> bad;
-  for (std::uint32_t t = 0; t < c.triangles(); ++t) {
-    if (!c.has_triangle(t) || triangle_quality(mesh, t).min_sine >= kLeastSine) continue;
-    for (const std::uint32_t v : c.triangle(t)) bad.push_back(v);
-  }
-  return bad;
 }
 
 /// Makes only those vertices active that are some rings at most from others.
@@ -153,7 +143,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
-  refine(mesh, find_sharp_edges(mesh));
+  refine(mesh, corners_at_sharp_edges(mesh));
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
 }
 
@@ -163,9 +153,8 @@ std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_fie
                                  Guarding guarding) {
   BlockField field(whole_field, mesh.box);
   for (int round = 0;; ++round) {
-    const std::vector<std::uint32_t> sharp = find_sharp_edges(mesh);
-    std::vector<std::uint32_t> bad = find_bad_triangles(mesh);
-    bad.insert(bad.end(), sharp.begin(), sharp.end());
+    const std::vector<std::uint32_t> sharp = corners_at_sharp_edges(mesh);
+    std::vector<std::uint32_t> bad = find_bad_vertices(mesh, sharp);
     if (bad.empty() || round == kRoundsInBoxes) return places_of(mesh, bad);
     refine(mesh, sharp);
     activate_round(mesh, std::move(bad));
@@ -221,11 +210,10 @@ class SurfaceImprover {
       }
       const double share = count / static_cast<double>(mesh_.at.size());
       const bool is_loss = count > kLoss * before, has_no_gain = i - last_gain > kSweepsPerDoubling;
-      if (can_be_left && share > kManyBad) {
+      if (can_be_left && share > kManyBad && bad.size() >= kLeastMany) {
         return {find_thin_vertices(mesh_, threads_).size(), places_to_trace(find_bad_vertices(mesh_, threads_))};
       }
-      if (can_be_left && share > kFewBad && is_loss && has_no_gain) break;
-      if (share > kManyBad && (is_loss || has_no_gain)) break;
+      if (has_no_gain && (share > kStillBad || (can_be_left && share > kFewBad && is_loss))) break;
       mend(bad, kSizesInHalfABox * std::exp2(i / kSweepsPerDoubling));
     }
     const std::vector<std::uint32_t> thin = find_thin_vertices(mesh_, threads_);

@@ -21,7 +21,8 @@ struct SurfaceMesh {
 /// What was not mended.
 struct LeftBad {
   std::size_t corners = 0;  ///< of triangles with an angle below 30 degrees
-  /// Where the next trace should be finer: places_round() these triangles, or all bad ones with ManyBad::kLeave.
+  /// Where the next trace should be finer: places_round() these triangles, or round all that is bad where
+  /// ManyBad::kLeave left it.
   std::vector<BadPlace> places;
 };
 
@@ -31,11 +32,13 @@ struct ImprovedSurface {
   LeftBad left;
 };
 
-/// Many bad vertices, as part of all, after the sweeps over the whole mesh: mostly the trace has bridged what is finer
-/// than its cells. A trace of finer cells is then mended in a fraction of the time.
-inline constexpr double kManyBad = 0.2;
+/// Many bad vertices, as part of all, after the sweeps over the whole mesh or after one in boxes: mostly the trace has
+/// bridged what is finer than its cells. A trace of finer cells is then mended in a fraction of the time.
+/// Of a small mesh that may be few, which are mended at once.
+inline constexpr double kManyBad = 0.08;
+inline constexpr std::size_t kLeastMany = 50;
 
-/// What to do with them.
+/// What to do with them. In either case work ends where many stay bad whatever is done.
 enum class ManyBad {
   kLeave,  ///< to a finer trace; so are fewer of them that only become more
   kMend,   ///< as long as it helps
@@ -48,10 +51,13 @@ enum class ManyBad {
 /// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h), and then in boxes round triangles that
 /// are still bad (bad_places.h): the same bits for any number of threads.
 ///
-/// @param traced   closed, oriented, embedded
+/// @param traced       closed, oriented, embedded
+/// @param field        whose surface it is
 /// @param targets      spacing at most kLargestSpacing; `largest_factor` is found here
 /// @param guarding     which triangles are kept apart by exact signs
-/// @param on_progress  called after each block, on any thread
+/// @param many_bad     what to do where many are bad
+/// @param threads      at least 1
+/// @param on_progress  called after each block, on any thread; what it throws comes out
 /// @return the mesh, and what is left bad in it; nothing where all angles are kLeastAngleDeg at least
 /// Cost: about twenty sums over the atoms nearby for each vertex.
 ImprovedSurface improve_surface(SurfaceMesh traced, const GaussianField& field, const SizeTargets& targets,

@@ -139,7 +139,7 @@ void repair_triangles(BlockMesh& mesh, SheetGuard& guard, BlockField& field, dou
     for (Index t = 0; t < count; ++t) {
       if (!repair.is_bad(t)) continue;
       repair.repair(t);
-      any = any || repair.is_bad(t);
+      any = true;  // what it did may have left others bad
     }
   }
 }

@@ -121,7 +121,7 @@ void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& ta
   GrowthLimit(mesh).apply();
 }
 
-std::vector<Index> find_sharp_edges(const BlockMesh& mesh) {
+std::vector<Index> corners_at_sharp_edges(const BlockMesh& mesh) {
   const HalfEdgeMesh& c = mesh.connectivity;
   std::vector<Index> sharp;
   for (Index h = 0; h < c.half_edges(); ++h) {

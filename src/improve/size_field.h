@@ -47,7 +47,7 @@ double wanted_size(const Curvatures& curvatures, const SizeTargets& targets);
 void find_wanted_sizes(BlockMesh& mesh, BlockField& field, const SizeTargets& targets);
 
 /// The corners of neighbours that turn_sharply() against each other, in rising order.
-std::vector<std::uint32_t> find_sharp_edges(const BlockMesh& mesh);
+std::vector<std::uint32_t> corners_at_sharp_edges(const BlockMesh& mesh);
 
 /// Asks for smaller triangles at some vertices, by a fifth.
 void refine(BlockMesh& mesh, const std::vector<std::uint32_t>& vertices);

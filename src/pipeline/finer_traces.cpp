@@ -8,6 +8,10 @@ namespace {
 
 constexpr int kMostTraces = 3;
 
+/// Where more than this part of the vertices is bad, and cells are larger than this part of the triangles wanted there,
+/// these are what the proof has left of cells that are too large for it: then all cells are made smaller by a factor.
+constexpr double kMostBad = 0.5, kLargeCell = 0.5, kSmallerCells = 0.25;
+
 /// How often cells are halved: as often as makes them no larger than so many of the edges that are wanted there, and
 /// at least so often in the first trace and in those after it.
 constexpr double kCellInSizes = 2.0;
@@ -17,9 +21,19 @@ static_assert(kMostLevel < kMaxLevel);
 }  // namespace
 
 bool FinerTraces::demand(const LeftBad& bad, std::size_t vertices, TraceDemands& demands) {
-  if (bad.places.empty()) return false;
-  double least_size = bad.places.front().size;
-  for (const BadPlace& place : bad.places) least_size = std::min(least_size, place.size);
+  if (bad.places.empty() || traces_ == kMostTraces) return false;
+  double least_size = bad.places.front().size, largest_size = least_size;
+  for (const BadPlace& place : bad.places) {
+    least_size = std::min(least_size, place.size);
+    largest_size = std::max(largest_size, place.size);
+  }
+  if (static_cast<double>(bad.corners) > kMostBad * static_cast<double>(vertices) &&
+      demands.spacing > kLargeCell * largest_size) {
+    demands.spacing *= kSmallerCells;
+    ++traces_;
+    last_corners_ = bad.corners;
+    return true;
+  }
   if (!may_help(bad, least_size, vertices)) return false;
   const int least_level = traces_ == 0 ? kFirstLevel : kLaterLevel;
   for (const BadPlace& place : bad.places) {
@@ -37,7 +51,6 @@ bool FinerTraces::may_help(const LeftBad& bad, double least_size, std::size_t ve
   constexpr double kFinerBy = 0.5, kFewerBy = 0.75;
   constexpr double kFew = 0.02;  // of the vertices: they are tried once more in any case
   if (traces_ == 0) return true;
-  if (traces_ == kMostTraces) return false;
   const auto corners = static_cast<double>(bad.corners);
   const bool is_gain =
       least_size < kFinerBy * last_least_size_ || corners < kFewerBy * static_cast<double>(last_corners_);

@@ -157,3 +157,17 @@ TEST_CASE("near a critical level that large cells cannot certify smaller ones do
   CHECK(result.report.check.min_angle_deg > 30.0);
   CHECK_THROWS_WITH(mesh_surface(atoms, options(0.654, isovalue, 5.0)), ContainsSubstring("a smaller spacing"));
 }
+
+TEST_CASE("where small atoms make cells as large as the molecule too large for the proof, triangles stay good") {
+  std::vector<Atom> atoms = {{0, 0, 0, 50.0, 0}};
+  constexpr int kBumps = 60;  // low ones on its surface, by the golden angle
+  constexpr double kOut = 50.625;
+  for (int i = 0; i < kBumps; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / kBumps, r = std::sqrt(1.0 - z * z), angle = -2.39996323 * (i + 0.5);
+    atoms.push_back({kOut * r * std::cos(angle), kOut * r * std::sin(angle), kOut * z, 0.1, 0});
+  }
+  const MeshResult result = mesh_surface(atoms, improved(0.6, 1.7, 50.0));
+  CHECK(topology(result) == std::vector<Piece>{{0, false}});
+  CHECK(result.report.check.min_angle_deg > 30.0);
+  CHECK(result.mesh.triangles.size() < 100);
+}

@@ -8,6 +8,7 @@
 
 #include "catch2.h"
 #include "gaussmesh/check_mesh.h"
+#include "improve/size_field.h"
 #include "support/meshing.h"
 #include "support/whole_mesh.h"
 
@@ -54,6 +55,18 @@ TEST_CASE("an improved mesh has no bad places, and one as traced has those that 
   }
   CHECK(find_thin_vertices(raw, 2) == std::vector<std::uint32_t>(thin.begin(), thin.end()));
   CHECK(thin.size() > 100);
+}
+
+TEST_CASE("a block has the bad places of the whole mesh, each once") {
+  const WholeMesh raw = whole_mesh(mesh_surface(atom_ring(8, 3.0, 1.5), options(0.6, 1.7, 0.8)), 0.8f);
+  const MeshBlocks blocks(raw, std::vector<Box>{{{-100, -100, -100}, {100, 100, 100}}}, 1);
+  const BlockMesh block = blocks.extract(0);
+  std::vector<Vec3> places, all;
+  for (const std::uint32_t v : find_bad_vertices(block, corners_at_sharp_edges(block))) places.push_back(block.at[v]);
+  for (const std::uint32_t v : find_bad_vertices(raw, 1)) all.push_back(raw.at[v]);
+  std::sort(places.begin(), places.end());
+  std::sort(all.begin(), all.end());
+  CHECK(places == all);
 }
 
 TEST_CASE("sharp edges between well-shaped triangles are bad places") {

@@ -42,6 +42,20 @@ TEST_CASE("cells are small enough for the wanted edges, and smaller in the secon
   CHECK(demands.fine_places[3].level == 5);
 }
 
+TEST_CASE("where most vertices are bad all cells are made smaller, until triangles are to be larger than they are") {
+  TraceDemands demands = demands_with(50.0);
+  FinerTraces traces;
+  for (const double spacing : {12.5, 3.125}) {
+    CHECK(traces.demand(left(700, 5.0), kVertices, demands));
+    CHECK(demands.spacing == spacing);
+    CHECK(demands.fine_places.empty());
+  }
+  CHECK_FALSE(traces.demand(left(700, 5.0), kVertices, demands));
+  CHECK(FinerTraces().demand(left(700, 5.0), kVertices, demands));
+  CHECK(demands.spacing == 3.125);
+  CHECK_FALSE(demands.fine_places.empty());
+}
+
 TEST_CASE("many bad places that are neither fewer nor finer are given up, few after another trace") {
   TraceDemands demands = demands_with(0.5);
   FinerTraces many, few;
