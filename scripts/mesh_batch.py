@@ -35,9 +35,9 @@ import sys
 import tempfile
 import zlib
 
-SUFFIXES = {".pqr", ".xyzr", ".pdb", ".ent", ".cif", ".mmcif"}
-OWN_RADII = [".pqr", ".xyzr"]
-NEED_RADII = {".pdb", ".ent", ".cif", ".mmcif"}
+OWN_RADII = [".pqr", ".xyzr", ".xyzrn", ".xyzrq"]
+NEED_RADII = {".pdb", ".ent", ".pdbqt", ".cif", ".mmcif"}
+SUFFIXES = NEED_RADII.union(OWN_RADII)
 # Options of gaussmesh that are given by this script, and what has them here.
 OWN_OPTIONS = {"-o": "--extension", "--output": "--extension", "--report": "--output", "--threads": "--threads",
                "--radii": "--radii", "--radii-file": "--radii-file"}
