@@ -1,7 +1,7 @@
 // The errors that gaussmesh throws, one class for each party that can mend them.
 //
-// Messages read `where: what was expected, got 'what'`, with a remedy where there is one. Only the app turns
-// them into exit codes.
+// Messages read `where: what was expected, got 'what'`, with a remedy where there is one, and name options as the
+// command line of the program does. Only the app turns them into exit codes.
 #pragma once
 
 #include <stdexcept>

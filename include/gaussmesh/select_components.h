@@ -41,7 +41,8 @@ MeshFile extract_components(const TriangleMesh& mesh, const VertexData& data, co
 ///
 /// @param check  of `mesh`
 ///
-/// Cost: O(n log n) for all of them together, and 4 bytes for each triangle and vertex. Thread-safe, as far as `take` is.
+/// Cost: O(n log n) for all of them together, and 4 bytes for each triangle and vertex.
+/// Thread-safe, as far as `take` is.
 void split_components(const TriangleMesh& mesh, const VertexData& data, const MeshCheck& check,
                       const std::function<void(std::uint32_t component, const MeshFile& part)>& take);
 

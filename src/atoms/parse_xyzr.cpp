@@ -1,3 +1,5 @@
+// x y z radius on each line: XYZR, XYZRN and XYZRQ; parse_pqr.cpp reads the rest of what has its own radii.
+
 #include <charconv>
 
 #include "atoms/atom_fields.h"

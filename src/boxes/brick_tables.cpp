@@ -73,11 +73,12 @@ void take_logarithms(double* values, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) values[i] = vector_log(values[i] > kLeastSum ? values[i] : kLeastSum);
 }
 
-/// For a row of cells along x, the largest psi at their corners, and a bound that psi is not below in the cells.
-/// What is_free() asks of one cell, face or edge: for all cells of a brick, one by one takes longer (2 % of a raw
-/// mesh).
-/// @param psi   at the lowest corner of the first cell; neighbours are 1, kPlanes and kPlanes^2 further
-/// @param loss  d (3/4) a^2
+/// The bounds by which is_free() judges one cell, for a row of cells along x at once: one by one takes longer (2 % of a
+/// raw mesh).
+/// @param psi      at the lowest corner of the first cell; neighbours are 1, kPlanes and kPlanes^2 further
+/// @param loss     d (3/4) a^2
+/// @param largest  by cell, psi at the corner where it is largest
+/// @param least    by cell, a bound that psi is not below in it
 GAUSSMESH_SIMD_CLONES
 void bound_row(const double* psi, double loss, double* largest, double* least) {
   for (int i = 0; i < kBrickCells; ++i) {

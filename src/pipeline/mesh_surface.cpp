@@ -1,3 +1,5 @@
+// From atoms to a judged mesh: attempts at a level, a lattice and sizes, until one keeps all that is promised. One
+// trace is in trace_surface.h.
 #include "gaussmesh/mesh_surface.h"
 
 #include <sys/resource.h>

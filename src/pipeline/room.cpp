@@ -34,7 +34,7 @@ void require_room(double triangles, const MeshOptions& options) {
   throw CannotMeshError("some " + number_text(triangles, 2) + " triangles are to come, which take " +
                         number_text(1e-9 * bytes_for(triangles, options), 2) + " GB of memory, and there are " +
                         number_text(1e-9 * options.memory_bytes, 2) + " GB; choose a larger " + larger +
-                        ", or set max-memory");
+                        ", or set --max-memory");
 }
 
 void require_room_as_traced(const GaussianField& field, const MeshOptions& options) {

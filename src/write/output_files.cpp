@@ -1,3 +1,5 @@
+// Meshes and texts that appear together or not at all; each by whole_file.h.
+
 #include <utility>
 
 #include "core/parallel.h"

@@ -1,3 +1,5 @@
+// What is known of a mesh, as JSON and as the three lines on the terminal.
+
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// Parts of a mesh by its components: some of them, or each for itself.
 #include "gaussmesh/select_components.h"
 
 #include <algorithm>

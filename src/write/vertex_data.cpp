@@ -1,3 +1,4 @@
+// What formats can hold of a vertex beside its place: normals, nearest atoms, components.
 #include "gaussmesh/vertex_data.h"
 
 #include <algorithm>

@@ -325,7 +325,7 @@ class TooLarge(CliTest):
 
     def test_a_mesh_that_is_too_large_is_not_begun(self):
         atom = self.write("large.xyzr", "0 0 0 50000\n")
-        for options, said in [(["--spacing", 0.01], r"some 7\.3e\+14 triangles .* can be numbered; choose a larger spacing$"),
+        for options, said in [(["--spacing", 0.01], r"some 7\.3e\+14 .* can be numbered; choose a larger spacing$"),
                               (["--spacing", 0.01, "--raw"], r"some 7\.3e\+14 triangles .* choose a larger spacing$"),
                               (["--spacing", 3], r"some 8\.1e\+09 triangles .* can be numbered"),
                               (["--tolerance", 1e-6, "--spacing", 9], r"choose a larger spacing or tolerance$")]:
