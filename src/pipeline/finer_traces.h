@@ -10,8 +10,8 @@ namespace gaussmesh {
 
 /// Smaller cells round bad triangles: those that bridge what is finer than they are cannot always be mended, but those
 /// of a finer trace can. Sizes are known where there are vertices: each trace may find that the surface curves more
-/// between them than the one before has shown. Where most triangles are bad, and cells as large as they
-/// should be, all cells are made smaller.
+/// between them than the one before has shown. Where most triangles are bad, and cells as large as they should
+/// be, all cells are made smaller.
 class FinerTraces {
  public:
   /// Adds to the demands what may help against what improvement has left bad.

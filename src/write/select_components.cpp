@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/sort_and_unite.h"
+
 namespace gaussmesh {
 namespace {
 
@@ -90,8 +92,7 @@ void split_components(const TriangleMesh& mesh, const VertexData& data, const Me
     vertices.clear();
     for (auto t = begin; t != end; ++t)
       vertices.insert(vertices.end(), mesh.triangles[*t].begin(), mesh.triangles[*t].end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_and_unite(vertices);
     MeshFile part;
     part.data.atom_count = data.atom_count;
     for (const std::uint32_t v : vertices) {

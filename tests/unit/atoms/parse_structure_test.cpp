@@ -22,6 +22,18 @@ struct NamedAtom {
   char alternate = '.';  // of mmCIF
 };
 
+/// What element_of_name() is to find.
+struct KnownElement {
+  const char* name;  // columns 13-16
+  const char* residue;
+  const char* element;
+};
+
+void check_element(const KnownElement& known) {
+  CAPTURE(known.name, known.residue);
+  CHECK(element_of_name(known.name, known.residue) == known.element);
+}
+
 std::vector<NamedAtom> read_named(const std::string& file) {
   std::ifstream input(std::string(GAUSSMESH_DATA) + "/" + file);
   std::vector<NamedAtom> atoms;
@@ -187,12 +199,7 @@ TEST_CASE("a crystallographic CIF is told from mmCIF") {
 }
 
 TEST_CASE("elements are known from names, or not at all") {
-  struct Case {
-    const char* name;  // columns 13-16
-    const char* residue;
-    const char* element;
-  };
-  const Case known = GENERATE(values<Case>({
+  const KnownElement known = GENERATE(values<KnownElement>({
       {"CA  ", "GLY", "C"},  {" CA ", "GLY", "C"},  {"NE  ", "ARG", "N"},  {"CD  ", "PRO", "C"}, {"HG  ", "SER", "H"},
       {"CE  ", "lys", "C"},  {"ne2 ", "HIE", "N"},  {"HG11", "VAL", "H"},  {"1HG1", "VAL", "H"}, {"OXT ", "ALA", "O"},
       {"SD  ", "MET", "S"},  {"SE  ", "MSE", "SE"}, {"SE  ", "MET", "SE"}, {"D   ", "ALA", "D"}, {"P   ", "DA", "P"},
@@ -203,17 +210,11 @@ TEST_CASE("elements are known from names, or not at all") {
       {"NE  ", "LIG", ""},   {"CD1 ", "LIG", ""},   {"HG  ", "LIG", ""},   {"NA  ", "HEM", ""},  {"12  ", "LIG", ""},
       {"NH1 ", "LIG", "N"},  {"    ", "LIG", ""},   {"XX  ", "LIG", ""},   {"QA  ", "GLY", ""},
   }));
-  CAPTURE(known.name, known.residue);
-  CHECK(element_of_name(known.name, known.residue) == known.element);
+  check_element(known);
 }
 
 TEST_CASE("ions are known in whatever columns by the name of their residue") {
-  struct Case {
-    const char* name;  // columns 13-16
-    const char* residue;
-    const char* element;
-  };
-  const Case known = GENERATE(values<Case>({
+  const KnownElement known = GENERATE(values<KnownElement>({
       {" CL ", "CL", "CL"},  {" CL ", "CL-", "CL"}, {"CL- ", "CL-", "CL"}, {" CA ", "CA", "CA"},  {" CA ", "CA2", "CA"},
       {" NA ", "NA", "NA"},  {" NA ", "NA+", "NA"}, {" NA+", "NA+", "NA"}, {" na ", "Na", "NA"},  {" CD ", "CD", "CD"},
       {" CO ", "3CO", "CO"}, {" CS ", "CS", "CS"},  {" CU ", "CU1", "CU"}, {" NI ", "NI", "NI"},  {" HG ", "HG", "HG"},
@@ -223,8 +224,7 @@ TEST_CASE("ions are known in whatever columns by the name of their residue") {
       {" CD ", "CA", "C"},   {" MG ", "CLA", "M"},  {" CA ", "CAN", "C"},  {" C  ", "C", "C"},    {" K  ", "K", "K"},
       {" N  ", "NA", "N"},   {" H2 ", "H2", "H"},   {"    ", "", ""},      {" 12 ", "12", ""},
   }));
-  CAPTURE(known.name, known.residue);
-  CHECK(element_of_name(known.name, known.residue) == known.element);
+  check_element(known);
 }
 
 TEST_CASE("where the element stays open there is an error, but for radii that do without") {
