@@ -34,13 +34,14 @@ struct NumberFields {
   std::span<const std::string_view> leading;  ///< fields before them; empty if found by columns
 };
 
-/// Records of PDB that say nothing about charges and radii, in order.
+/// Records of PDB, and of PDBQT, that say nothing about charges and radii, in order.
 inline constexpr auto kPassedOver = std::to_array<std::string_view>(
-    {"ANISOU", "AUTHOR", "CAVEAT", "CISPEP", "COMPND", "CONECT", "CRYST1", "DBREF",  "DBREF1", "DBREF2", "EXPDTA",
-     "FORMUL", "FTNOTE", "HEADER", "HELIX",  "HET",    "HETNAM", "HETSYN", "HYDBND", "JRNL",   "KEYWDS", "LINK",
-     "LINKR",  "MASTER", "MDLTYP", "MODRES", "MTRIX1", "MTRIX2", "MTRIX3", "NUMMDL", "OBSLTE", "ORIGX1", "ORIGX2",
-     "ORIGX3", "REMARK", "REVDAT", "SCALE1", "SCALE2", "SCALE3", "SEQADV", "SEQRES", "SHEET",  "SIGATM", "SIGUIJ",
-     "SITE",   "SLTBRG", "SOURCE", "SPLIT",  "SPRSDE", "SSBOND", "TER",    "TITLE",  "TURN",   "TVECT",  "USER"});
+    {"ANISOU", "AUTHOR", "BEGIN_", "BRANCH", "CAVEAT", "CISPEP", "COMPND", "CONECT", "CRYST1", "DBREF",  "DBREF1",
+     "DBREF2", "ENDBRA", "ENDROO", "END_RE", "EXPDTA", "FORMUL", "FTNOTE", "HEADER", "HELIX",  "HET",    "HETNAM",
+     "HETSYN", "HYDBND", "JRNL",   "KEYWDS", "LINK",   "LINKR",  "MASTER", "MDLTYP", "MODRES", "MTRIX1", "MTRIX2",
+     "MTRIX3", "NUMMDL", "OBSLTE", "ORIGX1", "ORIGX2", "ORIGX3", "REMARK", "REVDAT", "ROOT",   "SCALE1", "SCALE2",
+     "SCALE3", "SEQADV", "SEQRES", "SHEET",  "SIGATM", "SIGUIJ", "SITE",   "SLTBRG", "SOURCE", "SPLIT",  "SPRSDE",
+     "SSBOND", "TER",    "TITLE",  "TORSDO", "TURN",   "TVECT",  "USER"});
 static_assert(std::is_sorted(kPassedOver.begin(), kPassedOver.end()));
 
 /// The first `size` characters of `text` in upper case.

@@ -408,8 +408,8 @@ TEST_CASE("other atoms behind END are not lost") {
 
 TEST_CASE("lines that are no records of PDB are told") {
   const std::string line = pdb_line(kCarbon);
-  CHECK(parse_pdb("REMARK\nROOT\n" + line + "ENDROOT\n", "a.pdb", "bondi").warnings ==
-        std::vector<std::string>{"a.pdb:2: skipped 2 lines of no known record, the first 'ROOT'"});
+  CHECK(parse_pdb("REMARK\nREMRAK\n" + line + "ENDS\n", "a.pdb", "bondi").warnings ==
+        std::vector<std::string>{"a.pdb:2: skipped 2 lines of no known record, the first 'REMRAK'"});
   CHECK_THAT(error_of("data_1ABC\n" + line),
              ContainsSubstring("a.pdb:1: expected PDB records, got 'data_1ABC'; mmCIF"));
   CHECK_THAT(error_of("<!DOCTYPE html>\n"), ContainsSubstring("web pages"));

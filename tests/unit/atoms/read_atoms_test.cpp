@@ -273,8 +273,12 @@ TEST_CASE("read_atoms says which formats are not read") {
 
 TEST_CASE("PDBQT is read as PDB") {
   std::istringstream input(
-      "ROOT\nATOM      1  OA  LIG A   1       0.000   0.000   0.000  1.00  0.00     0.148 OA\nENDROOT\n");
-  CHECK(read_atoms(input, "a.pdbqt", {"", "bondi"}).atoms.at(0).radius == 1.52);
+      "BEGIN_RES LIG A 1\nROOT\n"
+      "ATOM      1  OA  LIG A   1       0.000   0.000   0.000  1.00  0.00     0.148 OA\n"
+      "ENDROOT\nBRANCH   1   2\nENDBRANCH   1   2\nTORSDOF 1\nEND_RES LIG A 1\n");
+  const AtomFile file = read_atoms(input, "a.pdbqt", {"", "bondi"});
+  CHECK(file.atoms.at(0).radius == 1.52);
+  CHECK(file.warnings.empty());
 }
 
 TEST_CASE("read_atoms does not depend on the locale") {
