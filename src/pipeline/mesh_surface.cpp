@@ -159,8 +159,11 @@ class SurfaceMesher {
     give_back_memory();  // cells, roots and curves, most of what there is up to here
     describe_trace(trace, report);
     if (trace.surface.mesh.triangles.empty()) {
+      const auto largest = std::max_element(atoms_.begin(), atoms_.end(),
+                                            [](const Atom& a, const Atom& b) { return a.radius < b.radius; });
       throw CannotMeshError("nothing to mesh: phi is below c = " + number_text(options_.isovalue, 15) +
-                            " everywhere; choose a smaller c");
+                            " everywhere, with radii of " + number_text(largest->radius) +
+                            " A at most; choose a smaller c, or larger radii");
     }
     return std::move(trace.surface);
   }

@@ -401,6 +401,11 @@ TEST_CASE("phi below c everywhere: nothing to mesh, and that is said") {
                mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1.001 * highest, 0.5));
              }),
              Catch::Matchers::ContainsSubstring("nothing to mesh"));
+  // As where all radii of a file are 0, whatever its atoms are.
+  CHECK_THAT(message_of([&] {
+               mesh_surface({{0, 0, 0, 0.25, 0}, {9, 0, 0, 0, 0}}, options(0.6, 1.7, 0.5));
+             }),
+             Catch::Matchers::ContainsSubstring("everywhere, with radii of 0.25 A at most; choose a smaller c"));
   CHECK_THAT(message_of([&] {
                mesh_surface({{0, 0, 0, 1.5, 0}}, options(0.6, 1e9, 0.5));
              }),
