@@ -137,19 +137,27 @@ std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const 
   return places_of(mesh, vertices);
 }
 
-std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_around, double most) {
-  std::vector<Box> boxes;
-  const auto half_edge = [&](const BadPlace& place) { return std::min(sizes_around * place.size, most); };
+Box box_round(const BadPlace& place, const BoxSize& size) {
+  return widened({place.at, place.at}, std::min(size.half_in_sizes * place.size, size.most));
+}
+
+std::vector<BadPlace> take_apart(std::vector<BadPlace>& places, const BoxSize& size) {
   double largest = 0.0;
-  for (const BadPlace& place : places) largest = std::max(largest, half_edge(place));
-  BoxGrid grid(2.0 * largest);
   for (const BadPlace& place : places) {
-    const Box box = widened({place.at, place.at}, half_edge(place));
+    const Box box = box_round(place, size);
+    largest = std::max(largest, box.hi[0] - box.lo[0]);
+  }
+  BoxGrid grid(largest);
+  std::vector<BadPlace> taken;
+  std::vector<Box> boxes;
+  for (const BadPlace& place : places) {
+    const Box box = box_round(place, size);
     bool is_free = true;
     BoxGrid::Reader(grid).visit(box, [&](std::uint32_t other) { is_free = is_free && !boxes_meet(box, boxes[other]); });
     if (!is_free) continue;
     grid.add(box, static_cast<std::uint32_t>(boxes.size()));
     boxes.push_back(box);
+    taken.push_back(place);
   }
   BoxGrid::Reader reader(grid);
   std::erase_if(places, [&](const BadPlace& place) {
@@ -157,7 +165,7 @@ std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_ar
     reader.visit({place.at, place.at}, [&](std::uint32_t box) { is_taken = is_taken || is_in(boxes[box], place.at); });
     return is_taken;
   });
-  return boxes;
+  return taken;
 }
 
 }  // namespace gaussmesh

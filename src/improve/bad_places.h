@@ -24,8 +24,9 @@ std::vector<std::uint32_t> find_thin_vertices(const WholeMesh& mesh, int threads
 
 /// Where the mesh is to be worked on, and how large triangles are to be there.
 struct BadPlace {
-  Vec3 at;      ///< A
-  double size;  ///< wanted edge (A)
+  Vec3 at;          ///< A
+  double size;      ///< wanted edge (A)
+  int in_vain = 0;  ///< boxes in which it was worked on without any change, one after the other, up to the last one
 };
 
 /// Those of some vertices, in their order.
@@ -36,9 +37,17 @@ std::vector<BadPlace> places_of(const MeshVertices& mesh, const std::vector<std:
 /// Cost: two passes over the triangles.
 std::vector<BadPlace> places_round(const std::vector<std::uint32_t>& bad, const WholeMesh& mesh, double cell);
 
-/// Cubes round places in their order, as many as have no point in common; places in cubes are taken from the list.
-/// @param sizes_around  from a place to the faces of its cube, in wanted edges there
-/// @param most          A, and no farther than this
-std::vector<Box> take_boxes_round(std::vector<BadPlace>& places, double sizes_around, double most);
+/// How large boxes round places are.
+struct BoxSize {
+  double half_in_sizes;  ///< from a place to the faces of its box, in wanted edges there
+  double most;           ///< A, and no farther than this
+};
+
+/// The cube round a place.
+Box box_round(const BadPlace& place, const BoxSize& size);
+
+/// Takes places from a list, in their order, whose boxes have no point in common, and leaves out the others in these
+/// boxes. @return those with boxes
+std::vector<BadPlace> take_apart(std::vector<BadPlace>& places, const BoxSize& size);
 
 }  // namespace gaussmesh

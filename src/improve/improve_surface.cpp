@@ -51,9 +51,11 @@ constexpr Sweep kSweeps[] = {{.rounds = 3, .effort = 9.0},
 constexpr int kSweepsWithOtherPlanes = 4;
 
 /// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
-/// is tried again in larger ones.
+/// is tried again in larger ones. Where nothing has changed another box of the same size would be in vain too, and
+/// where that is so with three sizes the place is given up.
 constexpr double kSizesInHalfABox = 5.0;
 constexpr int kSweepsPerDoubling = 3;
+constexpr int kMostInVain = 3;
 constexpr double kMostHalfEdge = 5.0;  ///< spacings
 
 /// Where more than this part of all vertices stays bad, a few sweeps that leave no fewer than this part of the bad ones
@@ -147,15 +149,30 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
 }
 
+/// Whether these are the same places with the same wishes.
+bool is_same(const std::vector<BadPlace>& a, const std::vector<BadPlace>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const BadPlace& p, const BadPlace& q) { return p.at == q.at && p.size == q.size; });
+}
+
 /// Works where a triangle is bad or neighbours turn sharply, and leaves vertices exactly on the surface.
+/// @param in_vain  boxes before this one that changed nothing
 /// @return places that are still bad
 std::vector<BadPlace> mend_block(BlockMesh& mesh, const GaussianField& whole_field, const SizeTargets& targets,
-                                 Guarding guarding) {
+                                 Guarding guarding, int in_vain) {
   BlockField field(whole_field, mesh.box);
+  std::vector<BadPlace> at_first;
   for (int round = 0;; ++round) {
     const std::vector<std::uint32_t> sharp = corners_at_sharp_edges(mesh);
     std::vector<std::uint32_t> bad = find_bad_vertices(mesh, sharp);
-    if (bad.empty() || round == kRoundsInBoxes) return places_of(mesh, bad);
+    if (round == 0) at_first = places_of(mesh, bad);
+    if (bad.empty() || round == kRoundsInBoxes) {
+      std::vector<BadPlace> left = places_of(mesh, bad);
+      if (is_same(left, at_first)) {
+        for (BadPlace& place : left) place.in_vain = in_vain + 1;
+      }
+      return left;
+    }
     refine(mesh, sharp);
     activate_round(mesh, std::move(bad));
     find_wanted_sizes(mesh, field, targets);
@@ -201,16 +218,22 @@ class SurfaceImprover {
     int last_gain = 0;
     const bool can_be_left = many_bad == ManyBad::kLeave;
     for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
-      if (bad.empty()) bad = places_of(mesh_, find_bad_vertices(mesh_, threads_));
-      if (bad.empty()) return {};
-      const auto count = static_cast<double>(bad.size()), before = static_cast<double>(fewest);
+      if (bad.empty() && !waiting_.empty()) i += (kSweepsPerDoubling - i % kSweepsPerDoubling) % kSweepsPerDoubling;
+      if (i % kSweepsPerDoubling == 0) {
+        bad.insert(bad.end(), waiting_.begin(), waiting_.end());
+        waiting_.clear();
+      }
+      if (bad.empty()) bad = bad_with_hope();
+      if (bad.empty()) break;
+      const std::size_t all = bad.size() + waiting_.size() + given_up_.size();
+      const auto count = static_cast<double>(all), before = static_cast<double>(fewest);
       if (count < kGain * before) {
-        fewest = bad.size();
+        fewest = all;
         last_gain = i;
       }
       const double share = count / static_cast<double>(mesh_.at.size());
       const bool is_loss = count > kLoss * before, has_no_gain = i - last_gain > kSweepsPerDoubling;
-      if (can_be_left && share > kManyBad && bad.size() >= kLeastMany) {
+      if (can_be_left && share > kManyBad && all >= kLeastMany) {
         return {find_thin_vertices(mesh_, threads_).size(), places_to_trace(find_bad_vertices(mesh_, threads_))};
       }
       if (has_no_gain && (share > kStillBad || (can_be_left && share > kFewBad && is_loss))) break;
@@ -243,13 +266,35 @@ class SurfaceImprover {
     mesh_ = std::move(blocks).join(threads_);
   }
 
-  /// In boxes round some of the places, which are taken from the list; those that are bad afterwards are added.
+  /// Bad places of the whole mesh, but for those that were given up and are as they were.
+  std::vector<BadPlace> bad_with_hope() {
+    std::vector<BadPlace> bad = places_of(mesh_, find_bad_vertices(mesh_, threads_));
+    std::sort(given_up_.begin(), given_up_.end());
+    std::erase_if(
+        bad, [&](const BadPlace& place) { return std::binary_search(given_up_.begin(), given_up_.end(), place.at); });
+    return bad;
+  }
+
+  /// In boxes round some of the places, which are taken from the list; those that are bad afterwards are added, or if
+  /// nothing has changed in their box, wait for a larger one.
   void mend(std::vector<BadPlace>& bad, double sizes_in_half_a_box) {
-    const std::vector<Box> boxes = take_boxes_round(bad, sizes_in_half_a_box, kMostHalfEdge * targets_.spacing);
+    const BoxSize size{sizes_in_half_a_box, kMostHalfEdge * targets_.spacing};
+    const std::vector<BadPlace> centres = take_apart(bad, size);
+    std::vector<Box> boxes;
+    for (const BadPlace& centre : centres) boxes.push_back(box_round(centre, size));
     std::vector<std::vector<BadPlace>> left(boxes.size());
-    run(MeshBlocks(std::move(mesh_), boxes, threads_), kEffortInBoxes,
-        [&](std::size_t b, BlockMesh& block) { left[b] = mend_block(block, field_, targets_, guarding_); });
-    for (const auto& places : left) bad.insert(bad.end(), places.begin(), places.end());
+    run(MeshBlocks(std::move(mesh_), boxes, threads_), kEffortInBoxes, [&](std::size_t b, BlockMesh& block) {
+      left[b] = mend_block(block, field_, targets_, guarding_, centres[b].in_vain);
+    });
+    for (const auto& places : left) {
+      for (const BadPlace& place : places) {
+        if (place.in_vain >= kMostInVain) {
+          given_up_.push_back(place.at);
+        } else {
+          (place.in_vain > 0 ? waiting_ : bad).push_back(place);
+        }
+      }
+    }
   }
 
   std::vector<BadPlace> places_to_trace(const std::vector<std::uint32_t>& bad) const {
@@ -257,6 +302,8 @@ class SurfaceImprover {
   }
 
   WholeMesh mesh_;
+  std::vector<BadPlace> waiting_;  ///< for larger boxes
+  std::vector<Vec3> given_up_;     ///< places (A)
   const GaussianField& field_;
   SizeTargets targets_;
   const Guarding guarding_;

@@ -1,4 +1,5 @@
 // Inputs for which the program once gave a wrong answer, or none.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -170,4 +171,22 @@ TEST_CASE("where small atoms make cells as large as the molecule too large for t
   CHECK(topology(result) == std::vector<Piece>{{0, false}});
   CHECK(result.report.check.min_angle_deg > 30.0);
   CHECK(result.mesh.triangles.size() < 100);
+}
+
+TEST_CASE("a place where no box changes anything is not worked on to the end") {
+  const std::vector<Atom> part_of_1ubq = {
+      {28.916, 21.09, 17.156, 1.487, 0},  {31.568, 16.962, 19.825, 1.908, 0}, {30.32, 16.698, 19.051, 1.908, 0},
+      {30.198, 15.657, 18.366, 1.661, 0}, {29.34, 17.594, 19.076, 1.824, 0},  {28.108, 17.439, 18.276, 1.908, 0},
+      {28.375, 17.999, 16.887, 1.908, 0}, {29.326, 18.786, 16.69, 1.661, 0},  {26.926, 18.191, 18.892, 1.908, 0},
+      {26.621, 17.799, 20.352, 1.908, 0}, {26.01, 16.37, 20.28, 1.908, 0},    {26.975, 15.521, 20.942, 1.824, 0},
+      {27.603, 14.423, 20.655, 1.908, 0}, {27.479, 13.733, 19.537, 1.824, 0}, {29.506, 18.409, 19.699, 0.6, 0},
+      {27.898, 16.47, 18.202, 1.387, 0},  {27.128, 19.164, 18.879, 1.487, 0}, {26.113, 17.998, 18.355, 1.487, 0},
+      {27.444, 17.747, 20.856, 1.487, 0}, {25.95, 18.391, 20.717, 1.487, 0},  {25.177, 16.389, 20.77, 1.387, 0},
+      {25.934, 16.138, 19.344, 1.387, 0}, {26.851, 14.103, 18.83, 0.6, 0},    {27.51, 17.689, 15.954, 1.824, 0},
+      {27.574, 18.192, 14.563, 1.908, 0}, {26.741, 17.038, 16.266, 0.6, 0},   {25.303, 15.894, 17.152, 1.661, 0}};
+  MeshOptions o = improved(4.0, 1.0, 1.5);
+  double share_done = 0.0;  // but for the end, where it is 1
+  o.on_improving = [&](double share) { share_done = share < 1.0 ? std::max(share_done, share) : share_done; };
+  CHECK(mesh_surface(part_of_1ubq, o).report.check.min_angle_deg > 30.0);
+  CHECK(share_done < 0.8);
 }

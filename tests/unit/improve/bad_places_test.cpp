@@ -91,7 +91,9 @@ TEST_CASE("boxes round bad vertices have no common points, and none is far from 
   const auto size_of = [](std::uint32_t v) { return v % 2 == 0 ? 0.1 : 0.5; };
   std::vector<BadPlace> places;
   for (const std::uint32_t v : bad) places.push_back({mesh.at[v], size_of(v)});
-  const std::vector<Box> boxes = take_boxes_round(places, sizes_around, most);
+  const BoxSize size{sizes_around, most};
+  std::vector<Box> boxes;
+  for (const BadPlace& place : take_apart(places, size)) boxes.push_back(box_round(place, size));
   for (const BadPlace& place : places) {
     CHECK(std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return is_in(box, place.at); }));
   }
