@@ -17,7 +17,12 @@ constexpr int kSamples = 256;
 /// split for the proof and leave more triangles to improvement.
 constexpr double kCellInSmallSizes = 1.6;
 
-/// It is no less than this in sizes that a tenth of the surface exceeds: blocks of cells are to hold large triangles
+/// Most cells with a crease between atoms are split if they are larger than this in radii of the atoms; creases are
+/// there where a tenth of the surface wants small triangles. Still smaller cells save no time, and triangles get less
+/// even.
+constexpr double kCellInRadii = 0.45;
+
+/// They are no less than this in sizes that a tenth of the surface exceeds: blocks of cells are to hold large triangles
 /// too.
 constexpr double kCellInLargeSizes = 0.2;
 
@@ -76,24 +81,32 @@ SizeSamples sample_sizes(const GaussianField& field, const SizeTargets& targets)
   // As many samples as the area of its sphere has a share in that of all: some atoms have several and many none.
   double passed = 0.0;
   int sample = 0;
+  std::vector<double> radii;
   for (std::size_t i = 0; i < field.size(); ++i) {
     passed += 4.0 * std::numbers::pi * radius_sq(field, i);
     for (; sample < kSamples && (sample + 0.5) * area < passed; ++sample) {
       const auto found = sample_near(field, i, direction(sample), targets);
       if (!found) continue;
       samples.sizes.push_back(found->size);
+      radii.push_back(std::sqrt(radius_sq(field, i)));
       samples.area += area * found->area_in_areas;
     }
   }
   std::sort(samples.sizes.begin(), samples.sizes.end());
+  std::sort(radii.begin(), radii.end());
+  if (!radii.empty()) samples.radius = radii[radii.size() / 2];
   return samples;
 }
 
 double suitable_cell_size(const SizeSamples& samples, double spacing) {
   const std::vector<double>& sizes = samples.sizes;
   if (sizes.empty()) return spacing;
-  const double small = sizes[sizes.size() / 4], large = sizes[9 * sizes.size() / 10];
-  return std::min(std::max(kCellInSmallSizes * small, kCellInLargeSizes * large), spacing);
+  const auto quantile = [&](double share) {
+    return sizes[static_cast<std::size_t>(share * static_cast<double>(sizes.size()))];
+  };
+  const double across_creases = std::max(quantile(0.1), kCellInRadii * samples.radius);
+  const double cell = std::min(kCellInSmallSizes * quantile(0.25), across_creases);
+  return std::min(std::max(cell, kCellInLargeSizes * quantile(0.9)), spacing);
 }
 
 double least_triangle_count(const SizeSamples& samples) {

@@ -18,6 +18,7 @@ double area_of_spheres(const GaussianField& field);
 /// Places that are spread evenly over the surface, more or less.
 struct SizeSamples {
   std::vector<double> sizes;  ///< wanted edges there (A), in rising order; none where no place was found
+  double radius = 0.0;        ///< A: median of those of the spheres that the atoms there have alone
   double area = 0.0;          ///< of the surface (A^2), to a third, and rather too small
 };
 

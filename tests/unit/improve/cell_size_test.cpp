@@ -39,11 +39,26 @@ TEST_CASE("on a sphere cells follow the size that its curvature or the tolerance
   const double radius = 2.0, tolerance = 1e-3;
   const std::vector<Atom> sphere = {{1, 2, 3, radius, 0}};
   const double by_curvature = cell_for(sphere, 100.0), by_tolerance = cell_for(sphere, 1.0, tolerance);
-  CHECK(by_curvature < 100.0);
-  CHECK(by_curvature / by_tolerance ==
-        Approx(kTurnPerEdge * radius / std::sqrt(2.5 * tolerance * radius)).epsilon(1e-3));
+  CHECK(by_curvature == Approx(kTurnPerEdge * radius).epsilon(1e-3));
+  CHECK(by_tolerance < 0.1 * by_curvature);
+  CHECK(cell_for(sphere, 1.0, 4.0 * tolerance) == Approx(2.0 * by_tolerance).epsilon(1e-3));
   CHECK(cell_for({{1, 2, 3, 2.0 * radius, 0}}, 100.0) == Approx(2.0 * by_curvature).epsilon(1e-3));
   CHECK(cell_for(sphere, 100.0, tolerance) == by_tolerance);  // however far below the spacing that is
+}
+
+TEST_CASE("where there are creases cells are no larger than a part of an atom, whatever the spacing") {
+  constexpr double kRadius = 1.7;
+  const auto cell_of_grid = [](double distance, double spacing) {
+    std::vector<Atom> grid;
+    for (int i = 0; i < 64; ++i) {
+      grid.push_back({distance * (i % 4), distance * (i / 4 % 4), distance * (i / 16), kRadius, 0});
+    }
+    return cell_for(grid, spacing);
+  };
+  CHECK(cell_of_grid(3.0, 4.0) < 0.5 * kRadius);
+  CHECK(cell_of_grid(3.0, 1.0) == cell_of_grid(3.0, 4.0));
+  CHECK(cell_of_grid(3.0, 0.4) == 0.4);
+  CHECK(cell_of_grid(1.5, 4.0) > 0.5 * kRadius);  // a smooth surface
 }
 
 TEST_CASE("large spheres count by their area: small ones beside them do not make cells small") {
