@@ -1,6 +1,10 @@
 #include "improve/improve_surface.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -41,6 +45,7 @@ constexpr int kRepairRounds = 3;
 struct Sweep {
   int rounds = 0;       ///< of splits, collapses, flips and relaxation
   double effort = 0.0;  ///< how long it takes, for those who wait: the first has the most to do
+  bool refines = true;  ///< asks for smaller triangles at sharp edges
   bool repairs = false;
   bool settles = false;  ///< leaves the vertices exactly on the surface
 };
@@ -49,6 +54,11 @@ constexpr Sweep kSweeps[] = {{.rounds = 3, .effort = 9.0},
                              {.rounds = 3, .effort = 3.0, .repairs = true},
                              {.rounds = 2, .effort = 2.0, .repairs = true, .settles = true}};
 constexpr int kSweepsWithOtherPlanes = 4;
+
+/// The last one is done again, up to so often, while triangles are less even than this: a mean ratio of the shortest to
+/// the longest edge, a little more than the 0.85 that it is to be after mending too.
+constexpr double kEvenRatio = 0.851;
+constexpr int kMostSweepsForRatio = 6;
 
 /// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
 /// is tried again in larger ones. Where nothing has changed another box of the same size would be in vain too, and
@@ -84,19 +94,37 @@ WholeMesh start_with(SurfaceMesh traced, double spacing) {
   return mesh;
 }
 
-double mean_edge(const WholeMesh& mesh, int threads) {
+/// Mean over the triangles of value(edges), which are squared lengths of the three.
+template <typename Value>
+double mean_over_triangles(const WholeMesh& mesh, int threads, const Value& value) {
   constexpr std::size_t kTrianglesAtOnce = 65536;
   const auto sums = parallel_gather<double>(mesh.triangles.size(), kTrianglesAtOnce, threads,
                                             [&](std::size_t first, std::size_t last, std::vector<double>& list) {
                                               double sum = 0.0;
                                               for (std::size_t number = first; number < last; ++number) {
                                                 const Triangle& t = mesh.triangles[number];
-                                                for (int i = 0; i < 3; ++i)
-                                                  sum += length(mesh.at[t[(i + 1) % 3]] - mesh.at[t[i]]);
+                                                const Vec3 a = mesh.at[t[1]] - mesh.at[t[0]],
+                                                           b = mesh.at[t[2]] - mesh.at[t[1]],
+                                                           c = mesh.at[t[0]] - mesh.at[t[2]];
+                                                sum += value(std::array<double, 3>{dot(a, a), dot(b, b), dot(c, c)});
                                               }
                                               list.push_back(sum);
                                             });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) / (3.0 * static_cast<double>(mesh.triangles.size()));
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(mesh.triangles.size());
+}
+
+double mean_edge(const WholeMesh& mesh, int threads) {
+  return mean_over_triangles(mesh, threads, [](const std::array<double, 3>& edges) {
+    return (std::sqrt(edges[0]) + std::sqrt(edges[1]) + std::sqrt(edges[2])) / 3.0;
+  });
+}
+
+/// Of the shortest to the longest edge.
+double mean_edge_ratio(const WholeMesh& mesh, int threads) {
+  return mean_over_triangles(mesh, threads, [](const std::array<double, 3>& edges) {
+    const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+    return std::sqrt(*shortest / *longest);
+  });
 }
 
 /// Edge (A) of blocks for a mesh as it was traced.
@@ -145,7 +173,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
-  refine(mesh, corners_at_sharp_edges(mesh));
+  if (sweep.refines) refine(mesh, corners_at_sharp_edges(mesh));
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
 }
 
@@ -195,20 +223,27 @@ class SurfaceImprover {
         threads_(threads),
         on_progress_(on_progress) {
     for (const Sweep& sweep : kSweeps) all_effort_ += sweep.effort;
+    all_effort_ += kMostSweepsForRatio * std::end(kSweeps)[-1].effort;
   }
 
   void sweep_all() {
     const double edge = block_edge(targets_.cell, mean_edge(mesh_, threads_));
     int number = 0;
-    for (const Sweep& sweep : kSweeps) {
-      const double shift = edge * number++ / kSweepsWithOtherPlanes;
+    const auto run_sweep = [&](const Sweep& sweep) {
+      const double shift = edge * (number++ % kSweepsWithOtherPlanes) / kSweepsWithOtherPlanes;
       run(MeshBlocks(std::move(mesh_), edge, {shift, shift, shift}, threads_), sweep.effort,
           [&](std::size_t, BlockMesh& block) { improve_block(block, field_, targets_, guarding_, sweep); });
+    };
+    for (const Sweep& sweep : kSweeps) {
+      run_sweep(sweep);
       if (number > kSweepsForLargest) continue;
       const double wish = targets_.largest() / mean_edge(mesh_, threads_);
       targets_.largest_factor = std::clamp(wish, 1.0, kLargestFactor);
       if (number == kSweepsForLargest) std::fill(mesh_.curvature.begin(), mesh_.curvature.end(), -1.0f);
     }
+    Sweep last = std::end(kSweeps)[-1];
+    last.refines = false;
+    for (int i = 0; i < kMostSweepsForRatio && mean_edge_ratio(mesh_, threads_) < kEvenRatio; ++i) run_sweep(last);
   }
 
   /// @return what is left bad
