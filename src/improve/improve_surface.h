@@ -48,8 +48,9 @@ enum class ManyBad {
 /// curves more: rounds of splits, collapses, Delaunay flips and relaxation along the surface [Botsch, Kobbelt
 /// 2004], then repairs of the worst triangles one by one. Every vertex stays on the surface; topology and
 /// orientation are kept by vetoes on every operation, and triangles are kept apart by exact signs. The work is done
-/// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h), and then in boxes round triangles that
-/// are still bad (bad_places.h): the same bits for any number of threads.
+/// in blocks of space whose planes lie elsewhere in each sweep (mesh_blocks.h), the last of them again while triangles
+/// are not even, and then in boxes round triangles that are still bad (bad_places.h): the same bits for any number of
+/// threads.
 ///
 /// @param traced       closed, oriented, embedded
 /// @param field        whose surface it is
