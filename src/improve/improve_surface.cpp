@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -45,19 +44,18 @@ constexpr int kRepairRounds = 3;
 struct Sweep {
   int rounds = 0;       ///< of splits, collapses, flips and relaxation
   double effort = 0.0;  ///< how long it takes, for those who wait: the first has the most to do
-  bool refines = true;  ///< asks for smaller triangles at sharp edges
   bool repairs = false;
   bool settles = false;  ///< leaves the vertices exactly on the surface
 };
-constexpr Sweep kSweeps[] = {{.rounds = 3, .effort = 9.0},
-                             {.rounds = 3, .effort = 3.0},
-                             {.rounds = 3, .effort = 3.0, .repairs = true},
-                             {.rounds = 2, .effort = 2.0, .repairs = true, .settles = true}};
+constexpr std::array kSweeps = {Sweep{.rounds = 3, .effort = 9.0}, Sweep{.rounds = 3, .effort = 3.0},
+                                Sweep{.rounds = 3, .effort = 3.0, .repairs = true},
+                                Sweep{.rounds = 2, .effort = 2.0, .repairs = true, .settles = true}};
 constexpr int kSweepsWithOtherPlanes = 4;
 
 /// The last one is done again, up to so often, while triangles are less even than this: a mean ratio of the shortest to
-/// the longest edge, a little more than the 0.85 that it is to be after mending too.
+/// the longest edge, a little more than the 0.85 that it is to be after mending too. Few meshes need it.
 constexpr double kEvenRatio = 0.851;
+constexpr double kMostBadForRatio = 0.02;
 constexpr int kMostSweepsForRatio = 6;
 
 /// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
@@ -173,7 +171,7 @@ void improve_block(BlockMesh& mesh, const GaussianField& whole_field, const Size
   cut_to_size(mesh, guard, field, Accuracy::kRough);
   for (int round = 0; round < sweep.rounds; ++round) run_round(mesh, guard, field, Accuracy::kRough);
   if (sweep.settles) settle_vertices(mesh, field);
-  if (sweep.refines) refine(mesh, corners_at_sharp_edges(mesh));
+  refine(mesh, corners_at_sharp_edges(mesh));
   if (sweep.repairs) repair_triangles(mesh, guard, field, kLeastAngleDeg, kRepairRounds);
 }
 
@@ -223,7 +221,7 @@ class SurfaceImprover {
         threads_(threads),
         on_progress_(on_progress) {
     for (const Sweep& sweep : kSweeps) all_effort_ += sweep.effort;
-    all_effort_ += kMostSweepsForRatio * std::end(kSweeps)[-1].effort;
+    all_effort_ += kMostSweepsForRatio * kSweeps.back().effort;
   }
 
   void sweep_all() {
@@ -241,9 +239,7 @@ class SurfaceImprover {
       targets_.largest_factor = std::clamp(wish, 1.0, kLargestFactor);
       if (number == kSweepsForLargest) std::fill(mesh_.curvature.begin(), mesh_.curvature.end(), -1.0f);
     }
-    Sweep last = std::end(kSweeps)[-1];
-    last.refines = false;
-    for (int i = 0; i < kMostSweepsForRatio && mean_edge_ratio(mesh_, threads_) < kEvenRatio; ++i) run_sweep(last);
+    for (int i = 0; i < kMostSweepsForRatio && can_be_more_even(); ++i) run_sweep(kSweeps.back());
   }
 
   /// @return what is left bad
@@ -299,6 +295,13 @@ class SurfaceImprover {
     });
     effort_done_ += effort;
     mesh_ = std::move(blocks).join(threads_);
+  }
+
+  /// Where more than a few vertices are bad the mean says nothing, and a finer trace may follow.
+  bool can_be_more_even() const {
+    if (mean_edge_ratio(mesh_, threads_) >= kEvenRatio) return false;
+    const auto bad = static_cast<double>(find_bad_vertices(mesh_, threads_).size());
+    return bad <= kMostBadForRatio * static_cast<double>(mesh_.at.size());
   }
 
   /// Bad places of the whole mesh, but for those that were given up and are as they were.
