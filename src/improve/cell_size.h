@@ -26,8 +26,8 @@ struct SizeSamples {
 SizeSamples sample_sizes(const GaussianField& field, const SizeTargets& targets);
 
 /// Edge (A) of cells that suit the wanted triangles: the spacing (A), or less where the curvature or the tolerance
-/// makes most triangles smaller. Cells that are much too large cost more: they are split for the proof, and
-/// improvement has to make most of the triangles. Nothing but cost hangs on it.
+/// makes most triangles smaller, or where there are creases between atoms. Cells that are much too large cost more: they
+/// are split for the proof, and improvement has to make most of the triangles. Nothing but cost hangs on it.
 double suitable_cell_size(const SizeSamples& samples, double spacing);
 
 /// A number of triangles that will not be much fewer: by the sizes that some part of the surface does not exceed.

@@ -249,12 +249,14 @@ class SurfaceImprover {
     int last_gain = 0;
     const bool can_be_left = many_bad == ManyBad::kLeave;
     for (int i = 0; i < kMostSweepsOfBoxes; ++i) {
+      // Where all that is known waits for larger boxes they come at once.
       if (bad.empty() && !waiting_.empty()) i += (kSweepsPerDoubling - i % kSweepsPerDoubling) % kSweepsPerDoubling;
       if (i % kSweepsPerDoubling == 0) {
         bad.insert(bad.end(), waiting_.begin(), waiting_.end());
         waiting_.clear();
       }
       if (bad.empty()) bad = bad_with_hope();
+      if (bad.empty() && given_up_.empty()) return {};
       if (bad.empty()) break;
       const std::size_t all = bad.size() + waiting_.size() + given_up_.size();
       const auto count = static_cast<double>(all), before = static_cast<double>(fewest);
