@@ -55,7 +55,7 @@ constexpr int kSweepsWithOtherPlanes = 4;
 /// The last one is done again, up to so often, while triangles are less even than this: a mean ratio of the shortest to
 /// the longest edge, a little more than the 0.85 that it is to be after mending too. Few meshes need it.
 constexpr double kEvenRatio = 0.851;
-constexpr double kMostBadForRatio = 0.02;
+constexpr double kMostBadForRatio = 0.02;  ///< part of the vertices; where more are bad it would be in vain
 constexpr int kMostSweepsForRatio = 6;
 
 /// Follow them: in boxes round what is bad, as often as it takes. What is not mended in small boxes, as a long crease,
